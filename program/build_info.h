@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What was built: goes into `--version` and into the context block of every output file.
+#pragma once
+
+#include <string>
+
+namespace program {
+
+struct BuildInfo {
+    std::string version;    // project version, e.g. "0.1.0"
+    std::string revision;   // git commit, with "-dirty" when the tree had changes; "unknown" outside a checkout
+    std::string buildType;  // "Release", "Debug", ...
+    std::string compiler;   // e.g. "GNU 12.2.0"
+};
+
+const BuildInfo& buildInfo();
+
+}  // namespace program

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The `.json` file beside a trial table, and the two data-set files of BIDS: what was shown, on what, by which
+// software. A session is resumed only with the design that its sidecar holds.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "records/run_context.h"
+#include "records/trial_table.h"
+
+namespace records {
+
+inline constexpr int kSidecarMajor = 1;
+
+struct SessionSidecar {
+    RunContext context;
+    std::string participant;
+    std::optional<std::string> session;
+    std::string observer = "human";       ///< "human", or the simulated observer's description
+    nlohmann::json design;                ///< the whole design, normalised (defaults filled in)
+    std::uint64_t seed = 0;
+    std::string kernel;                   ///< "disc", ... ; "mixed" where the design varies it
+    Task task = Task::twoAfc;
+    Encoding encoding = Encoding::srgb;
+    double beta = 3.5;                    ///< psychometric slope that the staircases assumed
+    double criterion = 0;                 ///< F* of the staircases' threshold
+    int displayWidthPx = 0, displayHeightPx = 0;
+    std::optional<double> pxPerDeg;
+    std::optional<double> displayGamma;
+    std::optional<double> luminanceCdM2;  ///< of full white
+};
+
+std::filesystem::path sidecarPath(const std::filesystem::path& trialTable);  ///< same name, .json
+
+/// Written whole or not at all (temporary file, sync, rename), with the descriptions of the columns.
+void writeSidecar(const std::filesystem::path& file, const SessionSidecar& sidecar);
+/// Throws std::runtime_error with file, field, value and rule; refuses an unknown major schema.
+SessionSidecar readSidecar(const std::filesystem::path& file);
+
+/// Creates dataset_description.json and participants.tsv where they are missing and adds the participant's row
+/// where it is missing. Never changes a row that is there.
+void registerParticipant(const std::filesystem::path& dataFolder, const std::string& participant);
+
+}  // namespace records
