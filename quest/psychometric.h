@@ -35,6 +35,18 @@ namespace quest {
 /// artifact is still seen on two trials of three.
 inline constexpr double kPaperCriterion = ((0.82 - 0.01 * 0.5) / (1.0 - 0.01) - 0.5) / (1.0 - 0.5);
 
+/// x of an artifact of size a under a filter of radius r; both > 0, in the same unit. Rises with
+/// visibility, so it falls with r.
+inline double strength(double artifactSize, double radius) {
+    return std::log10(artifactSize / radius);
+}
+
+/// The filter radius at which an artifact has strength x. At a threshold and a = 1 it is the slope
+/// c.
+inline double radiusAt(double artifactSize, double x) {
+    return artifactSize * std::pow(10.0, -x);
+}
+
 /// How an observer turns detection into an answer. T is double, or the fit's number type where the
 /// lapse or the guessing rate is estimated.
 template <typename T>

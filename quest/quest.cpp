@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "quest/quest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "quest/sentence.h"
+
+namespace quest {
+namespace {
+
+/// Candidates below this share of the posterior are set to 0. They could never come back into view;
+/// as denormal numbers they would stick and slow every later trial.
+constexpr double kNegligible = 1e-290;
+
+constexpr std::size_t kBlock = 16;
+
+constexpr std::size_t kLanes = 8;
+
+/// Sum of term(0) .. term(count - 1) in a fixed order that a compiler can keep in vector registers.
+template <typename Term>
+double sumInLanes(std::size_t count, Term term) {
+    std::array<double, kLanes> lane{};
+    std::size_t i = 0;
+    for (; i + kLanes <= count; i += kLanes) {
+        for (std::size_t l = 0; l < kLanes; ++l) lane[l] += term(i + l);
+    }
+    for (std::size_t l = 0; i < count; ++i, ++l) lane[l] += term(i);
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
+           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+double effectiveGamma(const QuestParameters& p) {
+    return p.gamma > p.pThreshold ? 0.5 : p.gamma;
+}
+
+ResponseModel responseModel(const QuestParameters& p) {
+    const double gamma = effectiveGamma(p);
+    return {.gamma = gamma, .lapse = p.delta, .lapseGuess = gamma};
+}
+
+/// D of METHODS section 4 as a real number, so that validate() can look at it.
+double intervalCount(const QuestParameters& p) {
+    return p.range ? 2 * std::ceil(*p.range / p.grain / 2) : 500;
+}
+
+/// W(u), the curve in its natural place.
+double curve(double u, const QuestParameters& p) {
+    return responseProbability(weibull(u, p.beta), responseModel(p));
+}
+
+std::string validateNumbers(const QuestParameters& p) {
+    const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
+    const auto probability = [](double v) { return v >= 0 && v <= 1; };
+    const char* const kPositive = "must be finite and greater than 0";
+    const char* const kProbability = "must be a probability in [0, 1]";
+    if (!std::isfinite(p.priorMean)) return sentence("priorMean", p.priorMean, "must be finite");
+    if (!positive(p.priorSd)) return sentence("priorSd", p.priorSd, kPositive);
+    if (!positive(p.beta)) return sentence("beta", p.beta, kPositive);
+    if (!positive(p.grain)) return sentence("grain", p.grain, kPositive);
+    if (p.range && !positive(*p.range)) return sentence("range", *p.range, kPositive);
+    if (!probability(p.pThreshold)) return sentence("pThreshold", p.pThreshold, kProbability);
+    if (!probability(p.delta)) return sentence("delta", p.delta, kProbability);
+    if (!probability(p.gamma)) return sentence("gamma", p.gamma, kProbability);
+    return {};
+}
+
+/// u where the table w over u(k) reaches `probability`, by linear interpolation over the points
+/// where w rises (and the end of the last rise). The caller has made sure that it is reached.
+template <typename Place>
+double offsetOfThreshold(std::span<const double> w, double probability, Place u) {
+    double lowerW = w[0], lowerU = u(0);
+    for (std::size_t k = 1; k < w.size(); ++k) {
+        if (w[k] >= probability) {
+            return lowerU + (probability - lowerW) / (w[k] - lowerW) * (u(k) - lowerU);
+        }
+        if (k + 1 < w.size() && !(w[k + 1] > w[k])) continue;
+        lowerW = w[k], lowerU = u(k);
+    }
+    return lowerU;
+}
+
+/// Quantile order of the most informative placement; depends on the ends of the curve alone.
+double idealOrder(double pL, double pH) {
+    constexpr double tiny = 2.2e-16;  // keeps 0 ln 0 at 0
+    const auto xlogx = [](double p) { return p * std::log(p + tiny); };
+    const auto qlogq = [](double q) { return (q + tiny) * std::log(q + tiny); };
+    const double entropies = xlogx(pH) - xlogx(pL) + qlogq(1 - pH) - qlogq(1 - pL);
+    const double z = 1 / (1 + std::exp(entropies / (pL - pH)));
+    return (z - pL) / (pH - pL);
+}
+
+}  // namespace
+
+std::string validate(const QuestParameters& p) {
+    if (std::string problem = validateNumbers(p); !problem.empty()) return problem;
+    if (p.priorSd < p.grain / 20) {
+        return sentence("priorSd", p.priorSd,
+                        "must be at least a twentieth of grain, or a single candidate holds the "
+                        "whole prior");
+    }
+    const double intervals = intervalCount(p);
+    if (intervals > kMaxIntervals) {
+        return sentence("range / grain", intervals, "must be at most 1000000 intervals");
+    }
+    const double low = curve(-intervals * p.grain, p);
+    const double high = curve(intervals * p.grain, p);
+    if (!(p.pThreshold > low && p.pThreshold < high)) {
+        char rule[160];
+        std::snprintf(rule, sizeof rule,
+                      "must lie inside the curve, whose table runs from %.15g to %.15g", low, high);
+        return sentence("pThreshold", p.pThreshold, rule);
+    }
+    return {};
+}
+
+double criterion(const QuestParameters& p) {
+    const double gamma = effectiveGamma(p);
+    return ((p.pThreshold - p.delta * gamma) / (1 - p.delta) - gamma) / (1 - gamma);
+}
+
+double thresholdProbability(double criterion, double gamma, double delta) {
+    return responseProbability(criterion,
+                               ResponseModel{.gamma = gamma, .lapse = delta, .lapseGuess = gamma});
+}
+
+QuestParameters forYesNo(QuestParameters parameters, double falseAlarmRate) {
+    const double sameCriterion = criterion(parameters);
+    parameters.gamma = falseAlarmRate;
+    parameters.pThreshold = thresholdProbability(sameCriterion, falseAlarmRate, parameters.delta);
+    return parameters;
+}
+
+std::optional<QuestParameters> presetNamed(std::string_view name) {
+    for (const QuestPreset& preset : kPresets) {
+        if (preset.name == name) return preset.parameters;
+    }
+    return {};
+}
+
+std::string toSentence(const QuestWarning& w) {
+    char text[200];
+    switch (w.kind) {
+        case QuestWarning::Kind::gammaReplaced:
+            return sentence("gamma", w.value, "above pThreshold, 0.5 is used instead");
+        case QuestWarning::Kind::outOfRange:
+            std::snprintf(text, sizeof text,
+                          "trial %zu: x is %.15g: outside %.6g to %.6g, the nearest end is used "
+                          "and the posterior is inexact; a larger range avoids it",
+                          w.trial, w.value, w.low, w.high);
+            return text;
+        case QuestWarning::Kind::impossibleResponse:
+            std::snprintf(text, sizeof text,
+                          "trial %zu: x is %.15g: no candidate threshold allows the answer, the "
+                          "posterior is kept; delta > 0 avoids it",
+                          w.trial, w.value);
+            return text;
+    }
+    return {};
+}
+
+Quest::Quest(const QuestParameters& parameters) : parameters_(parameters) {
+    if (const std::string problem = validate(parameters); !problem.empty()) {
+        throw std::invalid_argument("QUEST: " + problem);
+    }
+    intervals_ = static_cast<std::size_t>(intervalCount(parameters));
+    if (effectiveGamma(parameters) != parameters.gamma) {
+        warnings_.push_back({.kind = QuestWarning::Kind::gammaReplaced, .value = parameters.gamma});
+    }
+    setPrior();
+    tabulateCurve();
+}
+
+double Quest::offset(std::size_t index) const {
+    return (static_cast<double>(index) - static_cast<double>(intervals_ / 2)) * parameters_.grain;
+}
+
+void Quest::setPrior() {
+    pdf_.resize(intervals_ + 1);
+    scratch_.resize(intervals_ + 1);
+    for (std::size_t j = 0; j < pdf_.size(); ++j) {
+        const double deviation = offset(j) / parameters_.priorSd;
+        pdf_[j] = std::exp(-0.5 * deviation * deviation);
+    }
+    const double sum = sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j]; });
+    for (double& p : pdf_) p /= sum;
+    blockEnd_.resize((pdf_.size() + kBlock - 1) / kBlock);
+    sumBlocks();
+}
+
+void Quest::tabulateCurve() {
+    const std::size_t points = 2 * intervals_ + 1;
+    const auto u = [this](std::size_t k) {
+        return (static_cast<double>(k) - static_cast<double>(intervals_)) * parameters_.grain;
+    };
+    std::vector<double> w(points);
+    for (std::size_t k = 0; k < points; ++k) w[k] = curve(u(k), parameters_);
+    const double eps = offsetOfThreshold(w, parameters_.pThreshold, u);
+
+    const ResponseModel model = responseModel(parameters_);
+    yes_.resize(points);
+    no_.resize(points);
+    for (std::size_t k = 0; k < points; ++k) {
+        const double shifted = u(k) + eps;
+        const double hazard = std::exp(logHazard(shifted, parameters_.beta));
+        yes_[points - 1 - k] = responseProbability(-std::expm1(-hazard), model);
+        no_[points - 1 - k] = missProbability(std::exp(-hazard), model);
+    }
+    quantileOrder_ = idealOrder(yes_.back(), yes_.front());
+}
+
+void Quest::update(double x, int response) {
+    if (!std::isfinite(x)) {
+        throw std::invalid_argument(sentence("QUEST: x", x, "must be finite"));
+    }
+    if (response != 0 && response != 1) {
+        throw std::invalid_argument(sentence("QUEST: response", response, "must be 0 or 1"));
+    }
+    history_.push_back({.x = x, .response = response});
+
+    const double half = static_cast<double>(intervals_ / 2);
+    const double step = std::round((x - parameters_.priorMean) / parameters_.grain);
+    if (std::abs(step) > half) {
+        warn(QuestWarning::Kind::outOfRange, x);
+    }
+    // Candidate j reads the curve at index D + step - (j - D/2), which is D/2 - step + j from the
+    // other end.
+    const auto first = static_cast<std::size_t>(half - std::clamp(step, -half, half));
+    const double* const likelihood = (response == 1 ? yes_ : no_).data() + first;
+
+    const std::size_t count = pdf_.size();
+    for (std::size_t j = 0; j < count; ++j) scratch_[j] = pdf_[j] * likelihood[j];
+    const double sum = sumInLanes(count, [this](std::size_t j) { return scratch_[j]; });
+    if (!(sum > kNegligible)) {
+        warn(QuestWarning::Kind::impossibleResponse, x);
+        return;
+    }
+    const double scale = 1 / sum;
+    for (std::size_t j = 0; j < count; ++j) {
+        const double p = scratch_[j] * scale;
+        pdf_[j] = p < kNegligible ? 0.0 : p;
+    }
+    sumBlocks();
+}
+
+void Quest::warn(QuestWarning::Kind kind, double x) {
+    warnings_.push_back({.kind = kind,
+                         .trial = history_.size(),
+                         .value = x,
+                         .low = candidate(0),
+                         .high = candidate(intervals_)});
+}
+
+double Quest::quantile(double order) const {
+    if (!(order >= 0 && order <= 1)) {
+        throw std::invalid_argument(sentence("QUEST: quantile order", order, "must be in [0, 1]"));
+    }
+    const double target = order * blockEnd_.back();
+    const RunningSum upper = firstReaching(target);
+    if (upper.index == 0) return candidate(0);
+    // Only points where the sum rises carry the interpolation: below the rise, the first point that
+    // has the sum from which it rises.
+    const RunningSum lower = firstReaching(upper.before);
+    const double share = (target - lower.sum) / (upper.sum - lower.sum);
+    return candidate(lower.index) + share * (candidate(upper.index) - candidate(lower.index));
+}
+
+/// The first candidate whose running sum is at least `target`, which is at most the total.
+Quest::RunningSum Quest::firstReaching(double target) const {
+    const auto block = static_cast<std::size_t>(
+        std::lower_bound(blockEnd_.begin(), blockEnd_.end(), target) - blockEnd_.begin());
+    const double start = block == 0 ? 0.0 : blockEnd_[block - 1];
+    std::size_t j = block * kBlock;
+    double within = 0, before = start, sum = start + pdf_[j];
+    while (sum < target) {
+        within += pdf_[j++];
+        before = sum;
+        sum = start + (within + pdf_[j]);
+    }
+    return {.index = j, .before = before, .sum = sum};
+}
+
+/// Running sums at the end of each block. Blocks do not wait for each other, so that a processor
+/// that executes out of order adds them side by side; one chain over all candidates would be the
+/// longest part of a trial.
+void Quest::sumBlocks() {
+    const std::size_t count = pdf_.size();
+    double total = 0;
+    for (std::size_t b = 0; b < blockEnd_.size(); ++b) {
+        const std::size_t end = std::min(count, (b + 1) * kBlock);
+        double within = 0;
+        for (std::size_t j = b * kBlock; j < end; ++j) within += pdf_[j];
+        total += within;
+        blockEnd_[b] = total;
+    }
+}
+
+double Quest::mean() const {
+    const double sum = sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j]; });
+    const double moment =
+        sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j] * offset(j); });
+    return parameters_.priorMean + moment / sum;
+}
+
+double Quest::sd() const {
+    const double centre = mean() - parameters_.priorMean;
+    const double sum = sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j]; });
+    const double moment = sumInLanes(pdf_.size(), [this, centre](std::size_t j) {
+        const double deviation = offset(j) - centre;
+        return pdf_[j] * deviation * deviation;
+    });
+    return std::sqrt(moment / sum);
+}
+
+}  // namespace quest
