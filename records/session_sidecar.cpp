@@ -65,8 +65,8 @@ ordered_json toJson(const SessionSidecar& sidecar) {
     return file;
 }
 
-SessionSidecar sidecarFrom(const json& json, const std::string& file) {
-    const JsonFields fields = JsonFields(json, file).object("stairwell");
+SessionSidecar sidecarFrom(const json& value, const std::string& file) {
+    const JsonFields fields = JsonFields(value, file).object("stairwell");
     checkSchema(fields, kSchemaName, kSidecarMajor);
     SessionSidecar sidecar;
     sidecar.context = runContextFromJson(fields.any("context"), file, "stairwell.context");

@@ -93,8 +93,8 @@ void requireWorstGroup(const JsonFields& fields, const Slope& slope) {
         fields.fail("worst_group", "must be the name of one of the groups");
 }
 
-Slope slopeFrom(const json& json, const std::string& file) {
-    const JsonFields fields(json, file);
+Slope slopeFrom(const json& value, const std::string& file) {
+    const JsonFields fields(value, file);
     checkSchema(fields, kSchemaName, kSlopeFileMajor);
     Slope slope;
     slope.context = runContextFromJson(fields.any("context"), file);
@@ -138,7 +138,7 @@ std::string shareText(double share) {
 
 std::string intervalText(const std::optional<Interval>& interval) {
     if (!interval) return "(no interval)";
-    return "[" + formatted("%.2f", interval->low) + ", " + formatted("%.2f", interval->high) + "]";
+    return formatted("[%.2f, ", interval->low) + formatted("%.2f]", interval->high);
 }
 
 }  // namespace

@@ -25,9 +25,12 @@ class TemporaryFile {
     TemporaryFile(const std::filesystem::path& target, std::string_view bytes) {
         FileDescriptor descriptor;
         for (int attempt = 0; !descriptor.isOpen(); ++attempt) {
-            path_ = folderOf(target) /
-                    ("." + target.filename().string() + "." + std::to_string(::getpid()) + "-" +
-                     std::to_string(attempt) + ".tmp");
+            std::string name = ".";
+            name += target.filename().string();
+            for (const int part : {static_cast<int>(::getpid()), attempt})
+                name.append(".").append(std::to_string(part));
+            name += ".tmp";
+            path_ = folderOf(target) / name;
             descriptor = openFile(path_, O_WRONLY | O_CREAT | O_EXCL);
             if (!descriptor.isOpen() && errno != EEXIST)
                 throwSystemError(target, "cannot be written", errno);
