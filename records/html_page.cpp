@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "records/html_page.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "records/html_style.h"
+#include "records/quoted_text.h"
 #include "records/whole_file.h"
 
 namespace records {
 
 namespace {
 
-constexpr std::string_view kStyle = R"css(
-:root { color-scheme: light dark; }
-body { max-width: 60rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.55 system-ui, sans-serif; }
-)css";
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 std::string base64(std::string_view bytes) {
     static constexpr char kDigits[] =
@@ -30,71 +33,166 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
+std::string embeddedPng(const std::filesystem::path& png, const std::string& alt) {
+    const std::string bytes = readWholeFile(png);
+    if (!bytes.starts_with(kPngSignature))
+        throw std::runtime_error(png.string() + ": is no PNG image");
+    return "<img alt=\"" + htmlEscaped(alt) + "\" src=\"data:image/png;base64," + base64(bytes) +
+           "\">";
+}
+
+std::string captionOf(const std::string& text) {
+    return text.empty() ? "" : "<figcaption>" + htmlEscaped(text) + "</figcaption>";
+}
+
+// "12", "-0.4", "3.4 [3.2, 3.6]", "1.5 ms", "82 %", ".646", "n/a", "": what belongs into a column
+// of numbers.
+bool isNumeric(const std::string& cell) {
+    if (cell.empty() || cell == "n/a" || cell == "-") return true;
+    const std::size_t at = cell.find_first_not_of("+-<>=~[( ");
+    return at != std::string::npos &&
+           (std::string_view("0123456789").find(cell[at]) != std::string_view::npos ||
+            (cell[at] == '.' && at + 1 < cell.size()));
+}
+
+std::string tableRow(const std::string& tag, const std::vector<std::string>& cells,
+                     const std::vector<bool>& numeric) {
+    std::string row = "<tr>";
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        row += "<" + tag + (numeric[i] ? " class=\"number\">" : ">") + htmlEscaped(cells[i]) +
+               "</" + tag + ">";
+    return row + "</tr>\n";
+}
+
+void insertAfterEach(std::string& text, std::string_view mark, const std::string& insertion) {
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at)) {
+        at += mark.size();
+        text.insert(at, insertion);
+    }
+}
+
+// Several figures share one page, and gnuplot names the parts of each alike: without a prefix, the
+// second figure would show the first one's symbols.
+std::string svgElement(const std::string& svgText, const std::string& idPrefix) {
+    const std::size_t start = svgText.find("<svg");
+    const std::size_t end = svgText.rfind("</svg>");
+    if (start == std::string::npos || end == std::string::npos || end < start)
+        throw std::invalid_argument("figure: " + quotedText(svgText) + ": holds no <svg> element");
+    std::string svg = svgText.substr(start, end + 6 - start);
+    for (const std::string_view mark :
+         {" id=\"", " id='", "href=\"#", "href='#", "url(#", "url('#"})
+        insertAfterEach(svg, mark, idPrefix);
+    // gnuplot titles its figures "Gnuplot", which a browser would show under the mouse.
+    for (std::size_t at; (at = svg.find("<title>Gnuplot</title>")) != std::string::npos;)
+        svg.erase(at, std::string_view("<title>Gnuplot</title>").size());
+    return svg;
+}
+
 }  // namespace
 
 std::string htmlEscaped(const std::string& text) {
     std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
+    out.reserve(text.size());
+    for (const char character : text) {
+        switch (character) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '\'':
+                out += "&#39;";
+                break;
+            case '\0':
+                out += "\xef\xbf\xbd";
+                break;  // U+FFFD: HTML forbids NUL
+            default:
+                out += character;
+        }
     }
     return out;
 }
 
 HtmlPage::HtmlPage(std::string title) : title_(std::move(title)) {}
+
+void HtmlPage::element(const std::string& tag, const std::string& text) {
+    body_ += "<" + tag + ">" + htmlEscaped(text) + "</" + tag + ">\n";
+}
+
 void HtmlPage::heading(const std::string& text) {
-    body_ += "<h2>" + htmlEscaped(text) + "</h2>\n";
+    element("h2", text);
 }
 void HtmlPage::subheading(const std::string& text) {
-    body_ += "<h3>" + htmlEscaped(text) + "</h3>\n";
+    element("h3", text);
 }
 void HtmlPage::paragraph(const std::string& text) {
-    body_ += "<p>" + htmlEscaped(text) + "</p>\n";
+    element("p", text);
 }
+void HtmlPage::preformatted(const std::string& text) {
+    element("pre", text);
+}
+
 void HtmlPage::headline(const std::string& number, const std::string& meaning) {
-    body_ += "<p class=\"headline\"><strong>" + htmlEscaped(number) + "</strong> " +
-             htmlEscaped(meaning) + "</p>\n";
+    body_ += "<div class=\"headline\"><p class=\"value\">" + htmlEscaped(number) +
+             "</p><p class=\"meaning\">" + htmlEscaped(meaning) + "</p></div>\n";
 }
+
+void HtmlPage::note(const std::string& text) {
+    body_ += "<p class=\"note\" role=\"note\">" + htmlEscaped(text) + "</p>\n";
+}
+
 void HtmlPage::table(const std::vector<std::string>& head,
                      const std::vector<std::vector<std::string>>& rows,
                      const std::string& caption) {
-    body_ += "<table><caption>" + htmlEscaped(caption) + "</caption><tr>";
-    for (const auto& cell : head) body_ += "<th>" + htmlEscaped(cell) + "</th>";
-    body_ += "</tr>\n";
-    for (const auto& row : rows) {
-        body_ += "<tr>";
-        for (const auto& cell : row) body_ += "<td>" + htmlEscaped(cell) + "</td>";
-        body_ += "</tr>\n";
+    std::vector<bool> numeric(head.size(), !rows.empty());
+    for (const std::vector<std::string>& row : rows) {
+        if (row.size() != head.size())
+            throw std::invalid_argument("table " + quotedText(caption) + ": a row has " +
+                                        std::to_string(row.size()) + " cells: must have " +
+                                        std::to_string(head.size()));
+        for (std::size_t i = 0; i < row.size(); ++i) numeric[i] = numeric[i] && isNumeric(row[i]);
     }
-    body_ += "</table>\n";
+    // Focusable, so that the keyboard can scroll it.
+    body_ += "<figure class=\"table\">" + captionOf(caption) +
+             "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
+             htmlEscaped(caption.empty() ? "table" : caption) + "\"><table>\n<thead>" +
+             tableRow("th", head, numeric) + "</thead>\n<tbody>";
+    for (const std::vector<std::string>& row : rows) body_ += tableRow("td", row, numeric);
+    body_ += "</tbody></table></div></figure>\n";
 }
+
 void HtmlPage::svg(const std::string& svgText, const std::string& caption) {
-    body_ +=
-        "<figure>" + svgText + "<figcaption>" + htmlEscaped(caption) + "</figcaption></figure>\n";
+    const std::string prefix = "figure" + std::to_string(++figures_) + "-";
+    body_ += "<figure><div class=\"paper\" role=\"img\" aria-label=\"" + htmlEscaped(caption) +
+             "\">" + svgElement(svgText, prefix) + "</div>" + captionOf(caption) + "</figure>\n";
 }
+
 void HtmlPage::image(const std::filesystem::path& png, const std::string& alt,
                      const std::string& caption) {
-    body_ += "<figure><img alt=\"" + htmlEscaped(alt) + "\" src=\"data:image/png;base64," +
-             base64(readWholeFile(png)) + "\"><figcaption>" + htmlEscaped(caption) +
-             "</figcaption></figure>\n";
+    body_ += "<figure>" + embeddedPng(png, alt) + captionOf(caption) + "</figure>\n";
 }
-void HtmlPage::preformatted(const std::string& text) {
-    body_ += "<pre>" + htmlEscaped(text) + "</pre>\n";
+
+void HtmlPage::gallery(const std::vector<Picture>& pictures) {
+    body_ += "<div class=\"gallery\">\n";
+    for (const Picture& picture : pictures) image(picture.png, picture.alt, picture.caption);
+    body_ += "</div>\n";
 }
+
 std::string HtmlPage::text() const {
-    return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-           htmlEscaped(title_) + "</title><style>" + std::string(kStyle) +
-           "</style></head><body><h1>" + htmlEscaped(title_) + "</h1>\n" + body_ +
-           "</body></html>\n";
+    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+           htmlEscaped(title_) + "</title>\n<style>" + std::string(kHtmlStyle) +
+           "</style>\n</head>\n<body>\n<main>\n<h1>" + htmlEscaped(title_) + "</h1>\n" + body_ +
+           "</main>\n</body>\n</html>\n";
 }
+
 void HtmlPage::write(const std::filesystem::path& file) const {
     writeWholeFile(file, text());
 }

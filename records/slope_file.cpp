@@ -143,14 +143,21 @@ std::string intervalText(const std::optional<Interval>& interval) {
 
 }  // namespace
 
+std::string describeValue(const Slope& slope) {
+    return formatted("c = %.2f ", slope.c.estimate) + intervalText(slope.c.ci95);
+}
+
+std::string describeTerms(const Slope& slope) {
+    std::string text = "r = c a; F* = " + shareText(slope.criterion);
+    text += formatted(", %.3g", slope.percentCorrect);
+    text += slope.task == Task::twoAfc ? " % correct in 2AFC; " : " % seen in yes/no; ";
+    text += slope.kernel + "; ";
+    text += toText(slope.encoding);
+    return text + formatted("; beta %.3g", slope.beta) + "; worst group " + slope.worstGroup;
+}
+
 std::string describe(const Slope& slope) {
-    const bool isTwoAfc = slope.task == Task::twoAfc;
-    return "c = " + formatted("%.2f", slope.c.estimate) + " " + intervalText(slope.c.ci95) +
-           " (r = c a; F* = " + shareText(slope.criterion) + ", " +
-           formatted("%.3g", slope.percentCorrect) +
-           (isTwoAfc ? " % correct in 2AFC; " : " % seen in yes/no; ") + slope.kernel + "; " +
-           std::string(toText(slope.encoding)) + "; beta " + formatted("%.3g", slope.beta) +
-           "; worst group " + slope.worstGroup + ")";
+    return describeValue(slope) + " (" + describeTerms(slope) + ")";
 }
 
 void writeSlope(const std::filesystem::path& file, const Slope& slope) {

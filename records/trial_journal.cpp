@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -82,9 +83,15 @@ void TrialJournal::readExisting(const std::vector<std::string>& extraColumns) {
 
 void TrialJournal::startTable(const std::string& header) {
     if (!cutFile(descriptor_.get(), 0)) throwSystemError(file_, "cannot be written", errno);
-    write(header + "\n");
-    sync();
-    syncFolder(file_.has_parent_path() ? file_.parent_path() : ".");
+    try {
+        write(header + "\n");
+        sync();
+        syncFolder(file_.has_parent_path() ? file_.parent_path() : ".");
+    } catch (const std::runtime_error&) {
+        ::unlink(
+            file_.c_str());  // an empty table would be in the way of everyone who reads the folder
+        throw;
+    }
     existing_ = parseTrialTable(header + "\n", file_);
 }
 
