@@ -15,21 +15,13 @@ namespace {
 /// as denormal numbers they would stick and slow every later trial.
 constexpr double kNegligible = 1e-290;
 
+/// Running sums are kept at the end of each block, and blocks are summed side by side: one chain of
+/// additions over all candidates would be the longest part of a trial.
 constexpr std::size_t kBlock = 16;
+constexpr std::size_t kBlocksAtOnce = 4;
 
-constexpr std::size_t kLanes = 8;
-
-/// Sum of term(0) .. term(count - 1) in a fixed order that a compiler can keep in vector registers.
-template <typename Term>
-double sumInLanes(std::size_t count, Term term) {
-    std::array<double, kLanes> lane{};
-    std::size_t i = 0;
-    for (; i + kLanes <= count; i += kLanes) {
-        for (std::size_t l = 0; l < kLanes; ++l) lane[l] += term(i + l);
-    }
-    for (std::size_t l = 0; i < count; ++i, ++l) lane[l] += term(i);
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
-           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+std::size_t roundUp(std::size_t value, std::size_t multiple) {
+    return (value + multiple - 1) / multiple * multiple;
 }
 
 double effectiveGamma(const QuestParameters& p) {
@@ -178,16 +170,37 @@ double Quest::offset(std::size_t index) const {
 }
 
 void Quest::setPrior() {
+    const std::size_t padded = roundUp(intervals_ + 1, kBlock * kBlocksAtOnce);
     pdf_.resize(intervals_ + 1);
-    scratch_.resize(intervals_ + 1);
+    weights_.resize(padded);
+    blockEnd_.resize(padded / kBlock);
     for (std::size_t j = 0; j < pdf_.size(); ++j) {
         const double deviation = offset(j) / parameters_.priorSd;
-        pdf_[j] = std::exp(-0.5 * deviation * deviation);
+        weights_[j] = std::exp(-0.5 * deviation * deviation);
     }
-    const double sum = sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j]; });
-    for (double& p : pdf_) p /= sum;
-    blockEnd_.resize((pdf_.size() + kBlock - 1) / kBlock);
-    sumBlocks();
+    normalise(sumWeights());
+}
+
+/// Leaves the running sums of weights_ in blockEnd_ and returns the total.
+double Quest::sumWeights() {
+    double sum = 0;
+    for (std::size_t b = 0; b < blockEnd_.size(); b += kBlocksAtOnce) {
+        const double* const first = &weights_[b * kBlock];
+        std::array<double, kBlocksAtOnce> within{};
+        for (std::size_t j = 0; j < kBlock; ++j) {
+            for (std::size_t i = 0; i < kBlocksAtOnce; ++i) within[i] += first[i * kBlock + j];
+        }
+        for (std::size_t i = 0; i < kBlocksAtOnce; ++i) blockEnd_[b + i] = sum += within[i];
+    }
+    return sum;
+}
+
+void Quest::normalise(double sum) {
+    const double scale = 1 / sum;
+    for (std::size_t j = 0; j < pdf_.size(); ++j) {
+        const double p = weights_[j] * scale;
+        pdf_[j] = p < kNegligible ? 0.0 : p;
+    }
 }
 
 void Quest::tabulateCurve() {
@@ -230,19 +243,15 @@ void Quest::update(double x, int response) {
     const auto first = static_cast<std::size_t>(half - std::clamp(step, -half, half));
     const double* const likelihood = (response == 1 ? yes_ : no_).data() + first;
 
-    const std::size_t count = pdf_.size();
-    for (std::size_t j = 0; j < count; ++j) scratch_[j] = pdf_[j] * likelihood[j];
-    const double sum = sumInLanes(count, [this](std::size_t j) { return scratch_[j]; });
-    if (!(sum > kNegligible)) {
-        warn(QuestWarning::Kind::impossibleResponse, x);
+    for (std::size_t j = 0; j < pdf_.size(); ++j) weights_[j] = pdf_[j] * likelihood[j];
+    const double sum = sumWeights();
+    if (sum > kNegligible) {
+        normalise(sum);
         return;
     }
-    const double scale = 1 / sum;
-    for (std::size_t j = 0; j < count; ++j) {
-        const double p = scratch_[j] * scale;
-        pdf_[j] = p < kNegligible ? 0.0 : p;
-    }
-    sumBlocks();
+    warn(QuestWarning::Kind::impossibleResponse, x);
+    std::copy(pdf_.begin(), pdf_.end(), weights_.begin());
+    sumWeights();
 }
 
 void Quest::warn(QuestWarning::Kind kind, double x) {
@@ -273,44 +282,36 @@ Quest::RunningSum Quest::firstReaching(double target) const {
         std::lower_bound(blockEnd_.begin(), blockEnd_.end(), target) - blockEnd_.begin());
     const double start = block == 0 ? 0.0 : blockEnd_[block - 1];
     std::size_t j = block * kBlock;
-    double within = 0, before = start, sum = start + pdf_[j];
+    double within = 0, before = start, sum = start + weights_[j];
     while (sum < target) {
-        within += pdf_[j++];
+        within += weights_[j++];
         before = sum;
-        sum = start + (within + pdf_[j]);
+        sum = start + (within + weights_[j]);
     }
     return {.index = j, .before = before, .sum = sum};
 }
 
-/// Running sums at the end of each block. Blocks do not wait for each other, so that a processor
-/// that executes out of order adds them side by side; one chain over all candidates would be the
-/// longest part of a trial.
-void Quest::sumBlocks() {
-    const std::size_t count = pdf_.size();
-    double total = 0;
-    for (std::size_t b = 0; b < blockEnd_.size(); ++b) {
-        const std::size_t end = std::min(count, (b + 1) * kBlock);
-        double within = 0;
-        for (std::size_t j = b * kBlock; j < end; ++j) within += pdf_[j];
-        total += within;
-        blockEnd_[b] = total;
-    }
+double Quest::mean() const {
+    return parameters_.priorMean + meanOffset();
 }
 
-double Quest::mean() const {
-    const double sum = sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j]; });
-    const double moment =
-        sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j] * offset(j); });
-    return parameters_.priorMean + moment / sum;
+double Quest::meanOffset() const {
+    double sum = 0, moment = 0;
+    for (std::size_t j = 0; j < pdf_.size(); ++j) {
+        sum += pdf_[j];
+        moment += pdf_[j] * offset(j);
+    }
+    return moment / sum;
 }
 
 double Quest::sd() const {
-    const double centre = mean() - parameters_.priorMean;
-    const double sum = sumInLanes(pdf_.size(), [this](std::size_t j) { return pdf_[j]; });
-    const double moment = sumInLanes(pdf_.size(), [this, centre](std::size_t j) {
+    const double centre = meanOffset();
+    double sum = 0, moment = 0;
+    for (std::size_t j = 0; j < pdf_.size(); ++j) {
         const double deviation = offset(j) - centre;
-        return pdf_[j] * deviation * deviation;
-    });
+        sum += pdf_[j];
+        moment += pdf_[j] * deviation * deviation;
+    }
     return std::sqrt(moment / sum);
 }
 

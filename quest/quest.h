@@ -33,16 +33,16 @@ namespace quest {
 
 struct QuestParameters {
     double priorMean = -0.47712125471966244;  ///< g, centre of the candidates: x of r = 3 a
-    double priorSd = 0.4;                     ///< s > 0, log10 units; at least grain / 20
+    double priorSd = 0.35;                    ///< s > 0, log10 units; at least grain / 20
     double pThreshold = 0.82;  ///< P(yes) that defines the threshold; must lie inside the curve
     double beta = 3.5;         ///< slope of the curve, > 0
     double delta = 0.01;       ///< share of blind answers, [0, 1)
     double gamma = 0.5;        ///< P(yes) without detection, [0, 1]; above pThreshold: .5 is used
                                ///< instead, with a warning
     double grain = 0.01;       ///< h, distance of the candidates, > 0, log10 units
-    std::optional<double> range =
-        {};  ///< width of the candidates, > 0; absent: 500 intervals of grain.
-             ///< Be generous: a threshold outside is held to be impossible
+    /// Width of the candidates, > 0, log10 units; absent: 500 intervals of grain. Be generous: a
+    /// threshold outside is held to be impossible.
+    std::optional<double> range = {};
 
     bool operator==(const QuestParameters&) const = default;
 };
@@ -78,14 +78,14 @@ inline constexpr QuestParameters kPaperParameters{
 
 /// The default of new designs (2AFC): the paper's criterion, with more room for lapses.
 inline constexpr QuestParameters kDefaultParameters{
-    .priorSd = 0.4,
+    .priorSd = 0.35,
     .pThreshold = 0.02 * 0.5 + 0.98 * (0.5 + 0.5 * kPaperCriterion),
     .beta = 3.5,
     .delta = 0.02,
     .gamma = 0.5};
 
 inline constexpr std::array<QuestPreset, 2> kPresets{{
-    {"default", "paper's criterion, lapses of 2 %, prior sd 0.4", kDefaultParameters},
+    {"default", "paper's criterion, lapses of 2 %, prior sd 0.35", kDefaultParameters},
     {"paper", "as published: pThreshold .82, delta .01, gamma .5, beta 3.5", kPaperParameters},
 }};
 
@@ -151,13 +151,17 @@ class Quest {
     void setPrior();
     void tabulateCurve();
     void warn(QuestWarning::Kind kind, double x);
-    void sumBlocks();
+    double sumWeights();
+    void normalise(double sum);
+    double meanOffset() const;
     RunningSum firstReaching(double target) const;
 
     QuestParameters parameters_;
-    std::size_t intervals_;              // D
-    std::vector<double> pdf_, scratch_;  // D + 1
-    std::vector<double> blockEnd_;       // running sums of pdf_ at every sixteenth candidate
+    std::size_t intervals_;    // D
+    std::vector<double> pdf_;  // D + 1
+    // The posterior before it was normalised, padded with zeros, and its running sums at the end of
+    // every block of candidates: what quantiles are read from.
+    std::vector<double> weights_, blockEnd_;
     // P and 1 - P over the table of 2 D + 1 points, in falling order of x, so that an update is one
     // product of two contiguous arrays.
     std::vector<double> yes_, no_;

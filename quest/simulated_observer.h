@@ -23,7 +23,7 @@ struct SimulatedObserver {
     double threshold = -0.5403294747908737;  ///< x0 = -log10 c, finite; the default is c = 3.47
     double criterion = kPaperCriterion;      ///< F* at the threshold, (0, 1)
     double beta = 3.5;                       ///< > 0
-    ResponseModel response;  ///< gamma .5 in 2AFC, the false alarms in yes/no; lapses
+    ResponseModel response = {};  ///< gamma .5 in 2AFC, the false alarms in yes/no; lapses
 };
 
 /// Empty when usable; else a sentence that names field, value and rule.
