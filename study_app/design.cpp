@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "study_app/design.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string_view>
+
+#include "records/number_rule.h"
+#include "records/quoted_text.h"
+
+namespace study_app {
+namespace {
+
+using records::exactText;
+
+constexpr std::array<std::string_view, 3> kKernels{"disc", "box", "gaussian"};
+constexpr std::array<double, 3> kRadiusSteps{0.25, 0.5, 1};
+
+// Bounds against slips of the keyboard, far beyond what a person can sit through or a screen show.
+constexpr int kMostTrials = 100000;
+constexpr int kLargestWindowPx = 16384;
+
+std::string problem(const std::string& field, const std::string& value, const std::string& rule) {
+    return field + ": " + value + ": " + rule;
+}
+
+std::string problem(const std::string& field, double value, const std::string& rule) {
+    return problem(field, exactText(value), rule);
+}
+
+std::string broken(const std::string& field, double value, const records::NumberRule& rule,
+                   const std::string& kind = "number") {
+    return rule.holds(value) ? "" : problem(field, value, rule.text(kind));
+}
+
+std::string indexed(const std::string& field, std::size_t i) {
+    return field + "[" + std::to_string(i) + "]";
+}
+
+/// The first problem of a list of checks.
+template <typename... Checks>
+std::string firstOf(Checks... checks) {
+    std::string found;
+    ((found = checks(), found.empty()) && ...);
+    return found;
+}
+
+template <typename List>
+std::string duplicate(const std::string& field, const List& list) {
+    for (std::size_t i = 1; i < list.size(); ++i) {
+        const auto before = list.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto first = std::find(list.begin(), before, list[i]);
+        if (first == before) continue;
+        return problem(indexed(field, i),
+                       "repeats " + indexed(field, static_cast<std::size_t>(first - list.begin())),
+                       "a condition may stand in a design only once");
+    }
+    return {};
+}
+
+template <typename List>
+std::string noConditions(const std::string& field, const List& list) {
+    return list.empty() ? problem(field, "empty", "without an entry there are no conditions") : "";
+}
+
+std::string checkWindow(const Design& d) {
+    return broken("window_px", d.windowPx, records::between(16, kLargestWindowPx), "whole number");
+}
+
+std::string checkSizes(const Design& d) {
+    if (auto found = noConditions("artifact_px", d.artifactPx); !found.empty()) return found;
+    for (std::size_t i = 0; i < d.artifactPx.size(); ++i) {
+        const int a = d.artifactPx[i];
+        if (auto found = broken(indexed("artifact_px", i), a, records::atLeast(1), "whole number");
+            !found.empty()) {
+            return found;
+        }
+        if (2 * a >= d.windowPx) {
+            return problem(
+                indexed("artifact_px", i), a,
+                "must be less than half of window_px, which is " + std::to_string(d.windowPx));
+        }
+    }
+    return duplicate("artifact_px", d.artifactPx);
+}
+
+std::string checkPattern(const std::string& field, const Silhouette& s) {
+    if (s.pattern == records::Pattern::frame) {
+        return problem(field, "\"frame\"", "must be one of stair, step, line");
+    }
+    if (s.pattern == records::Pattern::line) {
+        if (!s.angleDeg) return problem(field + ".angle_deg", "missing", "a line needs its angle");
+        const records::NumberRule rule{
+            .low = 0, .high = 45, .lowIncluded = false, .highIncluded = false};
+        return broken(field + ".angle_deg", *s.angleDeg, rule);
+    }
+    if (s.angleDeg) {
+        return problem(field + ".angle_deg", *s.angleDeg,
+                       "only a line takes an angle; that of stair and step follows");
+    }
+    if (s.pattern == records::Pattern::stair && s.orientation != Orientation::any) {
+        return problem(field + ".orientation",
+                       s.orientation == Orientation::vertical ? "\"vertical\"" : "\"horizontal\"",
+                       "a stair of 45 degrees has no such direction; step and line have");
+    }
+    return {};
+}
+
+std::string checkPatterns(const Design& d) {
+    if (auto found = noConditions("patterns", d.patterns); !found.empty()) return found;
+    for (std::size_t i = 0; i < d.patterns.size(); ++i) {
+        if (auto found = checkPattern(indexed("patterns", i), d.patterns[i]); !found.empty()) {
+            return found;
+        }
+    }
+    return duplicate("patterns", d.patterns);
+}
+
+std::string checkLitLevels(const Design& d) {
+    if (auto found = noConditions("lit_levels", d.litLevels); !found.empty()) return found;
+    const records::NumberRule rule{.low = 0, .high = 1, .lowIncluded = false};
+    for (std::size_t i = 0; i < d.litLevels.size(); ++i) {
+        if (auto found = broken(indexed("lit_levels", i), d.litLevels[i], rule); !found.empty()) {
+            return found;
+        }
+    }
+    return duplicate("lit_levels", d.litLevels);
+}
+
+std::string checkKernels(const Design& d) {
+    if (auto found = noConditions("kernels", d.kernels); !found.empty()) return found;
+    for (std::size_t i = 0; i < d.kernels.size(); ++i) {
+        if (std::find(kKernels.begin(), kKernels.end(), d.kernels[i]) == kKernels.end()) {
+            return problem(indexed("kernels", i), records::quotedText(d.kernels[i]),
+                           "must be one of disc, box, gaussian");
+        }
+    }
+    return duplicate("kernels", d.kernels);
+}
+
+std::string checkTrials(const Design& d) {
+    if (auto found = broken("trials_per_condition", d.trialsPerCondition,
+                            records::between(1, kMostTrials), "whole number");
+        !found.empty()) {
+        return found;
+    }
+    if (auto found = broken("catch_share", d.catchShare, records::between(0, 0.5));
+        !found.empty()) {
+        return found;
+    }
+    const double total = static_cast<double>(d.trialsPerCondition) *
+                         static_cast<double>(d.artifactPx.size() * d.patterns.size() *
+                                             d.litLevels.size() * d.kernels.size());
+    if (total <= kMostTrials) return {};
+    return problem("trials_per_condition", d.trialsPerCondition,
+                   "makes " + exactText(total) + " trials in all, must be at most " +
+                       std::to_string(kMostTrials));
+}
+
+std::string checkRadius(const Design& d) {
+    const auto& [min, max, step] = d.radius;
+    if (std::find(kRadiusSteps.begin(), kRadiusSteps.end(), step) == kRadiusSteps.end()) {
+        return problem("radius_px.step", step, "must be 0.25, 0.5 or 1");
+    }
+    const auto multiple = [step = step](const char* field, double value) {
+        if (auto found = broken(field, value, records::kPositive); !found.empty()) return found;
+        if (std::fmod(value, step) == 0) return std::string();
+        return problem(field, value, "must be a multiple of radius_px.step, " + exactText(step));
+    };
+    if (auto found = multiple("radius_px.min", min); !found.empty()) return found;
+    if (auto found = multiple("radius_px.max", max); !found.empty()) return found;
+    if (min >= max) {
+        return problem("radius_px.min", min,
+                       "must be less than radius_px.max, which is " + exactText(max));
+    }
+    if (max > d.windowPx) {
+        return problem("radius_px.max", max,
+                       "must be at most window_px, which is " + std::to_string(d.windowPx));
+    }
+    return {};
+}
+
+std::string checkGuess(const Design& d) {
+    if (auto found = broken("quest.guess_ratio", d.guessRatio, records::kPositive);
+        !found.empty()) {
+        return found;
+    }
+    for (const int a : d.artifactPx) {
+        const double guess = d.guessRatio * a;
+        if (guess >= d.radius.min && guess <= d.radius.max) continue;
+        return problem("quest.guess_ratio", d.guessRatio,
+                       "guesses a radius of " + exactText(guess) + " px at artifact_px " +
+                           std::to_string(a) + ", outside radius_px, " + exactText(d.radius.min) +
+                           " to " + exactText(d.radius.max));
+    }
+    return {};
+}
+
+std::string checkCurve(const Design& d) {
+    const quest::QuestParameters& q = d.staircase;
+    constexpr records::NumberRule lapse{.low = 0, .high = 1, .highIncluded = false};
+    for (const std::string& found :
+         {broken("quest.prior_sd", q.priorSd, records::kPositive),
+          broken("quest.beta", q.beta, records::kPositive),
+          broken("quest.grain", q.grain, records::kPositive),
+          q.range ? broken("quest.range", *q.range, records::kPositive) : std::string(),
+          broken("quest.delta", q.delta, lapse), broken("quest.gamma", q.gamma, lapse)}) {
+        if (!found.empty()) return found;
+    }
+    if (d.task == records::Task::twoAfc && q.gamma != 0.5) {
+        return problem("quest.gamma", q.gamma, "must be 0.5 in 2afc: one of two sides is right");
+    }
+    const double top = 1 - q.delta * (1 - q.gamma);
+    if (!(q.pThreshold > q.gamma && q.pThreshold < top)) {
+        return problem("quest.threshold_probability", q.pThreshold,
+                       "must lie inside the curve, above gamma, " + exactText(q.gamma) +
+                           ", and below 1 - delta (1 - gamma), " + exactText(top));
+    }
+    const std::string remaining = quest::validate(staircaseParameters(d));
+    return remaining.empty() ? "" : problem("quest", "refused", remaining);
+}
+
+/// A strength that the limits can show must lie in the staircase's table for every candidate, or
+/// the posterior would be inexact.
+std::string checkRange(const Design& d) {
+    const quest::QuestParameters q = staircaseParameters(d);
+    const double half = q.range ? *q.range / 2 : 250 * q.grain;
+    const auto [least, most] = std::minmax_element(d.artifactPx.begin(), d.artifactPx.end());
+    for (const double x : {std::log10(*most / d.radius.min), std::log10(*least / d.radius.max)}) {
+        const double distance = std::abs(x - q.priorMean);
+        if (distance <= half) continue;
+        const double fitting = std::ceil(20 * distance) / 10;
+        const std::string rule = "the limits of radius_px show artifacts " +
+                                 exactText(std::round(distance * 1000) / 1000) +
+                                 " log10 units from the guess, must be at least " +
+                                 exactText(fitting) + " wide to hold them (or narrow radius_px)";
+        return problem("quest.range", 2 * half, rule);
+    }
+    return {};
+}
+
+std::string orientationText(Orientation orientation) {
+    switch (orientation) {
+        case Orientation::any:
+            return "";
+        case Orientation::horizontal:
+            return "-horizontal";
+        case Orientation::vertical:
+            return "-vertical";
+    }
+    return "";
+}
+
+std::string conditionName(const Design& design, const Condition& c) {
+    const Silhouette& s = c.silhouette;
+    std::string name(records::toText(s.pattern));
+    if (s.angleDeg) name += exactText(*s.angleDeg);
+    name += orientationText(s.orientation);
+    name += "-a" + std::to_string(c.artifactPx) + "-lit" + exactText(c.litLevel);
+    return design.kernels.size() > 1 ? name + "-" + c.kernel : name;
+}
+
+double trueAngleDeg(const Design& design, const Silhouette& s, int artifactPx) {
+    if (s.pattern == records::Pattern::line) return s.angleDeg.value_or(0);
+    if (s.pattern == records::Pattern::stair) return 45;
+    return std::atan(static_cast<double>(artifactPx) / design.windowPx) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+std::string validate(const Design& d) {
+    if (d.name.empty() || !records::isPlainText(d.name)) {
+        return problem("name", records::quotedText(d.name),
+                       "must be a text of one line, not empty");
+    }
+    return firstOf([&] { return checkWindow(d); }, [&] { return checkSizes(d); },
+                   [&] { return checkPatterns(d); }, [&] { return checkLitLevels(d); },
+                   [&] { return checkKernels(d); }, [&] { return checkTrials(d); },
+                   [&] { return checkRadius(d); }, [&] { return checkGuess(d); },
+                   [&] { return checkCurve(d); }, [&] { return checkRange(d); });
+}
+
+quest::QuestParameters staircaseParameters(const Design& design) {
+    quest::QuestParameters parameters = design.staircase;
+    parameters.priorMean = -std::log10(design.guessRatio);
+    return parameters;
+}
+
+std::vector<Condition> conditions(const Design& design) {
+    std::vector<Condition> result;
+    for (const Silhouette& silhouette : design.patterns) {
+        for (const int a : design.artifactPx) {
+            for (const double litLevel : design.litLevels) {
+                for (const std::string& kernel : design.kernels) {
+                    Condition c{.name = {},
+                                .silhouette = silhouette,
+                                .angleDeg = trueAngleDeg(design, silhouette, a),
+                                .artifactPx = a,
+                                .litLevel = litLevel,
+                                .kernel = kernel};
+                    c.name = conditionName(design, c);
+                    result.push_back(std::move(c));
+                }
+            }
+        }
+    }
+    return result;
+}
+
+int catchTrials(const Design& d) {
+    const auto staircaseTrials = static_cast<double>(d.artifactPx.size() * d.patterns.size() *
+                                                     d.litLevels.size() * d.kernels.size()) *
+                                 d.trialsPerCondition;
+    return static_cast<int>(std::lround(staircaseTrials * d.catchShare / (1 - d.catchShare)));
+}
+
+int totalTrials(const Design& d) {
+    return static_cast<int>(conditions(d).size()) * d.trialsPerCondition + catchTrials(d);
+}
+
+}  // namespace study_app

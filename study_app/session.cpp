@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "study_app/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string_view>
+
+#include "quest/random.h"
+#include "study_app/random_stream.h"
+
+namespace study_app {
+namespace {
+
+using records::Response;
+using records::Task;
+using records::Trial;
+using records::TrialStatus;
+using records::TrialType;
+
+bool isCorrect(const Trial& trial) {
+    if (trial.task == Task::twoAfc) return records::toText(trial.response) == *trial.side;
+    return (trial.response == Response::seen) == (trial.type == TrialType::artifact);
+}
+
+void requireResponse(Task task, Response response) {
+    const bool isSide = response == Response::left || response == Response::right;
+    if (isSide == (task == Task::twoAfc)) return;
+    throw std::invalid_argument("response: " + std::string(records::toText(response)) +
+                                ": does not belong to the task " +
+                                std::string(records::toText(task)));
+}
+
+std::vector<std::string_view> cells(std::string_view line) {
+    std::vector<std::string_view> result;
+    for (std::size_t end = line.find('\t'); end != line.npos; end = line.find('\t')) {
+        result.push_back(line.substr(0, end));
+        line.remove_prefix(end + 1);
+    }
+    result.push_back(line);
+    return result;
+}
+
+/// The cells are compared as the table writes them: numbers are written exactly, so equal text is
+/// equal bits.
+std::optional<Difference> firstDifference(const Trial& recorded, const Trial& derived) {
+    const std::string header = records::trialTableHeader(),
+                      recordedRow = records::trialTableRow(recorded),
+                      derivedRow = records::trialTableRow(derived);
+    if (recordedRow == derivedRow) return {};
+    const auto names = cells(header), is = cells(recordedRow), shouldBe = cells(derivedRow);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (is.at(i) == shouldBe.at(i)) continue;
+        return Difference{recorded.number, std::string(names[i]), std::string(is[i]),
+                          std::string(shouldBe[i])};
+    }
+    return {};
+}
+
+}  // namespace
+
+double shownRadius(double proposedPx, const RadiusLimits& limits) {
+    return std::clamp(std::round(proposedPx / limits.step) * limits.step, limits.min, limits.max);
+}
+
+Session::Session(const Design& design, std::uint64_t seed) : design_(design), seed_(seed) {
+    if (const std::string problem = validate(design); !problem.empty()) {
+        throw std::invalid_argument("design: " + problem);
+    }
+    conditions_ = study_app::conditions(design);
+    order_ = trialOrder(design, seed);
+    staircases_.assign(conditions_.size(), quest::Quest(staircaseParameters(design)));
+    prepareNext();
+}
+
+const Trial& Session::next() const {
+    if (finished()) throw std::logic_error("study_app: a finished session has no next trial");
+    return next_;
+}
+
+bool Session::nextIsCatch() const {
+    next();
+    return order_[answered_].isCatch;
+}
+
+std::size_t Session::nextCondition() const {
+    next();
+    return order_[answered_].condition;
+}
+
+void Session::prepareNext() {
+    if (finished()) return;
+    const auto [index, isCatch] = order_[answered_];
+    const Condition& condition = conditions_[index];
+    next_ = Trial{};
+    next_.number = static_cast<int>(rows_ + 1);
+    next_.condition = condition.name;
+    next_.pattern = condition.silhouette.pattern;
+    next_.angleDeg = condition.angleDeg;
+    next_.artifactPx = condition.artifactPx;
+    next_.litLevel = condition.litLevel;
+    next_.kernel = condition.kernel;
+    next_.task = design_.task;
+    next_.encoding = design_.encoding;
+    place(next_, index, isCatch);
+    rove(next_, condition);
+}
+
+void Session::place(Trial& trial, std::size_t condition, bool isCatch) const {
+    if (isCatch && design_.task == Task::twoAfc) {
+        trial.filterRadiusPx = design_.radius.min;
+        return;
+    }
+    const double proposed = quest::radiusAt(trial.artifactPx, staircases_[condition].quantile());
+    trial.proposedRadiusPx = proposed;
+    trial.filterRadiusPx = shownRadius(proposed, design_.radius);
+    if (isCatch) {
+        trial.type = TrialType::reference;
+    } else {
+        trial.staircase = conditions_[condition].name;
+    }
+}
+
+/// Every draw is made for every trial, so that what one design roves does not shift the others.
+void Session::rove(Trial& trial, const Condition& condition) const {
+    std::mt19937_64 rng = engineAt(seed_, Purpose::roving, rows_);
+    const bool left = quest::uniformBelow(rng, 2) == 0;
+    const int quarter = static_cast<int>(quest::uniformBelow(rng, 4));
+    const bool mirror = quest::uniformBelow(rng, 2) == 1;
+    const int most = condition.artifactPx / 2;
+    const int shift =
+        static_cast<int>(quest::uniformBelow(rng, static_cast<std::uint64_t>(2 * most + 1))) - most;
+    const double tilt = (2 * quest::uniform01(rng) - 1) * condition.angleDeg;
+
+    const bool vertical = condition.silhouette.orientation == Orientation::vertical;
+    const bool directed = condition.silhouette.orientation != Orientation::any;
+    const int turned = directed ? quarter / 2 * 2 : quarter;
+    const bool twoPanels = design_.task == Task::twoAfc;
+    if (twoPanels) trial.side = left ? "left" : "right";
+    trial.orientationQuarter = (design_.roving.quarterTurn ? turned : 0) + (vertical ? 1 : 0);
+    trial.mirror = design_.roving.mirror && mirror;
+    trial.shiftPx = design_.roving.shift ? shift : 0;
+    if (twoPanels && trial.pattern == records::Pattern::step) {
+        trial.tiltDeg = design_.roving.tilt ? tilt : 0;
+    }
+}
+
+Trial Session::answer(const Answer& answer) {
+    Trial row = next();
+    requireResponse(row.task, answer.response);
+    row.response = answer.response;
+    row.correct = isCorrect(row);
+    row.responseTimeS = answer.responseTimeS;
+    row.onsetS = answer.onsetS;
+    row.status = answer.status;
+    if (row.status == TrialStatus::ok) take(row);
+    ++rows_;
+    prepareNext();
+    return row;
+}
+
+void Session::take(Trial& row) {
+    const auto [condition, isCatch] = order_[answered_];
+    ++answered_;
+    if (isCatch) {
+        ++catchAnswered_;
+        if (!row.correct) ++catchFailed_;
+        return;
+    }
+    quest::Quest& staircase = staircases_[condition];
+    staircase.update(quest::strength(row.artifactPx, row.filterRadiusPx), row.correct ? 1 : 0);
+    row.thresholdMean = staircase.mean();
+    row.thresholdSd = staircase.sd();
+}
+
+std::optional<Difference> Session::replay(const Trial& row) {
+    if (row.status == TrialStatus::undone) {
+        ++rows_;
+        prepareNext();
+        return {};
+    }
+    if (finished()) {
+        return Difference{row.number, "trial", std::to_string(row.number),
+                          "no such row, the session ends before it"};
+    }
+    if (row.task != design_.task) {
+        return Difference{row.number, "task", std::string(records::toText(row.task)),
+                          std::string(records::toText(design_.task))};
+    }
+    Trial derived = answer({.response = row.response,
+                            .responseTimeS = row.responseTimeS,
+                            .onsetS = row.onsetS,
+                            .status = row.status});
+    derived.extra = row.extra;
+    return firstDifference(row, derived);
+}
+
+std::vector<Threshold> thresholds(const Session& session) {
+    std::vector<Threshold> result;
+    for (std::size_t k = 0; k < session.conditions().size(); ++k) {
+        const Condition& condition = session.conditions()[k];
+        const quest::Quest& staircase = session.staircase(k);
+        const double mean = staircase.mean();
+        result.push_back({.condition = condition.name,
+                          .trials = staircase.history().size(),
+                          .mean = mean,
+                          .sd = staircase.sd(),
+                          .c = quest::radiusAt(1.0, mean),
+                          .radiusPx = quest::radiusAt(condition.artifactPx, mean)});
+    }
+    return result;
+}
+
+}  // namespace study_app

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// study_app: runs the study's sessions.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "program/progress.h"
+#include "program/run_program.h"
+#include "records/run_context.h"
+#include "study_app/design_file.h"
+#include "study_app/recorded_session.h"
+#include "study_app/session_report.h"
+#include "study_app/simulated_population.h"
+#include "study_app/simulated_study.h"
+
+namespace {
+
+struct Options {
+    std::string design, data, participant, session, observer, replay;
+    std::uint64_t seed = 0;
+    int observers = 0;
+    bool headless = false, listDesigns = false;
+};
+
+void printNotices(const std::vector<std::string>& notices) {
+    for (const std::string& notice : notices) {
+        std::fprintf(stderr, "study_app: notice: %s\n", notice.c_str());
+    }
+}
+
+void listDesigns() {
+    for (const study_app::ShippedDesign& design : study_app::shippedDesigns()) {
+        std::printf("%-10s %s\n", design.name.c_str(), design.description.c_str());
+    }
+}
+
+void replay(const std::string& file) {
+    const study_app::ReplayedSession replayed = study_app::replayTable(file);
+    printNotices(replayed.table.notices);
+    std::printf("%s: every proposal and threshold of %zu rows derived again, bit for bit\n",
+                file.c_str(), replayed.table.trials.size());
+    std::printf("%s\n%s", study_app::contextLine(replayed.session).c_str(),
+                study_app::thresholdTable(replayed.session, nullptr).c_str());
+}
+
+void printSession(const study_app::SimulatedSession& session) {
+    printNotices(session.notices);
+    if (session.newRows == 0) {
+        std::printf("sub-%s: finished already, nothing changed (%s)\n", session.participant.c_str(),
+                    session.table.c_str());
+    } else if (session.resumedRows > 0) {
+        std::printf("sub-%s: resumed after %zu rows, %zu recorded in %s\n",
+                    session.participant.c_str(), session.resumedRows, session.newRows,
+                    session.table.c_str());
+    } else {
+        std::printf("sub-%s: %zu rows recorded in %s\n", session.participant.c_str(),
+                    session.newRows, session.table.c_str());
+    }
+}
+
+void simulate(const Options& options, const study_app::SessionRequest& request) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto population = study_app::populationFromText(options.observer);
+    const auto participants = static_cast<std::size_t>(options.observers);
+    const auto trials = static_cast<std::size_t>(study_app::totalTrials(request.design));
+    program::Progress progress("trials", trials * std::max<std::size_t>(participants, 1));
+    const auto onTrial = [&] { progress.advance(); };
+
+    std::vector<study_app::SimulatedSession> sessions;
+    if (participants == 0) {
+        sessions.push_back(study_app::runSimulatedSession(request, population, onTrial));
+    } else {
+        sessions = study_app::runSimulatedStudy(request, population, participants, onTrial);
+    }
+    std::size_t newRows = 0;
+    for (const study_app::SimulatedSession& session : sessions) {
+        printSession(session);
+        newRows += session.newRows;
+    }
+    if (participants == 0) {
+        std::printf("%s\n%s", study_app::contextLine(sessions[0].session).c_str(),
+                    study_app::thresholdTable(sessions[0].session, &sessions[0].observer).c_str());
+    } else {
+        std::printf("%s", study_app::studyTable(sessions).c_str());
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    std::printf("%zu rows, each synced to the disk, in %.3f s\n", newRows, elapsed.count());
+}
+
+/// What CLI11 cannot say: an option that another one makes necessary.
+void require(const CLI::App& app, const char* option) {
+    if (app.count(option) == 0) throw CLI::RequiredError(option);
+}
+
+void run(const CLI::App& app, const Options& options, std::vector<std::string> command) {
+    if (options.listDesigns) return listDesigns();
+    if (!options.replay.empty()) return replay(options.replay);
+    if (!options.headless) {
+        throw std::runtime_error(
+            "the window for sessions with people is not part of this build: add --headless and "
+            "--observer simulated (see --help)");
+    }
+    for (const char* option : {"--design", "--data", "--observer", "--seed"}) require(app, option);
+    if (options.observers == 0) require(app, "--participant");
+    if (options.data.empty()) throw std::runtime_error("--data: empty: must name a folder");
+
+    study_app::SessionRequest request{
+        .dataFolder = options.data,
+        .participant = options.participant,
+        .session = app.count("--session") > 0 ? std::optional(options.session) : std::nullopt,
+        .design = study_app::readDesign(study_app::findDesign(options.design)),
+        .seed = options.seed,
+        .context = records::currentRunContext("study_app", std::move(command))};
+    simulate(options, request);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "Runs sessions of a study: randomly interleaved QUEST staircases over the conditions of a "
+        "design.\nEvery answer is on disk before the next stimulus; the same command resumes an "
+        "unfinished session."};
+    app.footer("Keys of --observer simulated:key=value,... with their defaults:\n" +
+               study_app::describeKeys() +
+               "\nExample: study_app --headless --design paper16 --data study --observers 10 "
+               "--observer simulated:c=3.47 --seed 1");
+    Options o;
+    app.add_option("--design", o.design, "Design file, or the name of a shipped design");
+    app.add_option("--data", o.data, "Folder of the data set (BIDS), created where it is missing");
+    auto* participant =
+        app.add_option("--participant", o.participant, "Participant id: letters and digits");
+    app.add_option("--session", o.session, "Session id: letters and digits (default: none)");
+    app.add_flag("--headless", o.headless, "Run without a window, with a simulated observer");
+    app.add_option("--observer", o.observer, "simulated[:key=value,...], see below");
+    app.add_option("--observers", o.observers, "Simulate a whole study: participants 01, 02, ... N")
+        ->check(CLI::Range(1, 9999))
+        ->excludes(participant);
+    app.add_option("--seed", o.seed, "Order, roving and simulated observers follow from it");
+    auto* replayOption = app.add_option(
+        "--replay", o.replay,
+        "Derive a recorded session again from its table and sidecar, compare, print thresholds");
+    auto* list = app.add_flag("--list-designs", o.listDesigns, "Print the shipped designs");
+    list->excludes(replayOption);
+    std::vector<std::string> command(argv, argv + argc);
+    return program::run(app, argc, argv, [&] { run(app, o, command); });
+}
