@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+# cmake -D SHADER_DIR=... -D FILES="a;b" -D OUT_TEXT=... -D OUT_FILTERS=... -P embed_shaders.cmake
+# Writes (1) every shader as a string, so that a program carries its shaders, and (2) the C++ compilation of every
+# file under filters/: one namespace per technique, so that a technique is one row of the table and one file.
+
+set(text "// Generated from renderer/shaders by renderer/embed_shaders.cmake.\n")
+string(APPEND text "#include \"renderer/shader_library.h\"\n\nnamespace renderer {\n\n")
+string(APPEND text "const ShaderLibrary::Files& embeddedShaderFiles() {\n    static const ShaderLibrary::Files files = {\n")
+set(filters "// Generated from renderer/shaders/filters by renderer/embed_shaders.cmake.\n")
+set(rows "")
+foreach(file IN LISTS FILES)
+  file(READ "${SHADER_DIR}/${file}" content)
+  string(APPEND text "{\"${file}\", R\"GLSL(${content})GLSL\"},\n")
+  if(file MATCHES "^filters/(.*)\\.glsl$")
+    set(name "${CMAKE_MATCH_1}")
+    string(REGEX MATCHALL "PARAMETER_[a-z0-9_]+" parameters "${content}")
+    list(REMOVE_DUPLICATES parameters)
+    foreach(parameter IN LISTS parameters)
+      string(REPLACE "PARAMETER_" "" parameterName "${parameter}")
+      string(APPEND filters "#define ${parameter} parameterValue(shadow, \"${name}\", \"${parameterName}\")\n")
+    endforeach()
+    string(APPEND filters "namespace ${name} {\n#include \"renderer/shaders/${file}\"\n}\n")
+    foreach(parameter IN LISTS parameters)
+      string(APPEND filters "#undef ${parameter}\n")
+    endforeach()
+    string(APPEND rows "    {\"${name}\", &${name}::filterVisibility},\n")
+  endif()
+endforeach()
+string(APPEND text "    };\n    return files;\n}\n\n}  // namespace renderer\n")
+string(APPEND filters "constexpr GeneratedRow kGeneratedRows[] = {\n${rows}};\n")
+
+foreach(pair "OUT_TEXT;text" "OUT_FILTERS;filters")
+  list(GET pair 0 out)
+  list(GET pair 1 variable)
+  file(WRITE "${${out}}" "${${variable}}")
+endforeach()

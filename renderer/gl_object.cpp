@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/gl_object.h"
+
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace renderer {
+namespace {
+
+void setLabel(GLenum kind, GLuint name, std::string_view label) {
+    glObjectLabel(kind, name, static_cast<GLsizei>(label.size()), label.data());
+}
+
+void forgetEarlierErrors() {
+    while (glGetError() != GL_NO_ERROR) {
+    }
+}
+
+}  // namespace
+
+Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    Texture texture(name);
+    forgetEarlierErrors();
+    glTextureStorage2D(name, 1, internalFormat, width, height);
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+        throw std::runtime_error("texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
+                                 std::to_string(height) + " texels: the driver refuses it (GL error " +
+                                 std::to_string(error) +
+                                 (error == GL_OUT_OF_MEMORY ? ", out of memory)" : ")"));
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    setLabel(GL_TEXTURE, name, label);
+    return texture;
+}
+
+Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth, std::string_view label) {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    Framebuffer framebuffer(name);
+    std::vector<GLenum> drawBuffers;
+    for (const GLuint colour : colours) {
+        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
+        glNamedFramebufferTexture(name, attachment, colour, 0);
+        drawBuffers.push_back(attachment);
+    }
+    if (depth != 0) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth, 0);
+    if (drawBuffers.empty()) {
+        glNamedFramebufferDrawBuffer(name, GL_NONE);
+        glNamedFramebufferReadBuffer(name, GL_NONE);
+    } else {
+        glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(drawBuffers.size()), drawBuffers.data());
+    }
+    const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw std::runtime_error("framebuffer \"" + std::string(label) + "\": the driver calls it incomplete (status " +
+                                 std::to_string(status) + ")");
+    setLabel(GL_FRAMEBUFFER, name, label);
+    return framebuffer;
+}
+
+Buffer makeBuffer(const void* data, GLsizeiptr bytes, GLbitfield flags, std::string_view label) {
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    Buffer buffer(name);
+    forgetEarlierErrors();
+    glNamedBufferStorage(name, bytes, data, flags);
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+        throw std::runtime_error("buffer \"" + std::string(label) + "\" of " + std::to_string(bytes) +
+                                 " bytes: the driver refuses it (GL error " + std::to_string(error) + ")");
+    setLabel(GL_BUFFER, name, label);
+    return buffer;
+}
+
+}  // namespace renderer

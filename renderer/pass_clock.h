@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// How long the passes of a frame take. On a GPU by timer queries. On a software rasteriser timer queries are wrong (a
+// pass of 65 ms reads as .7 ms), so there the clock finishes the queue around each pass and reads a steady clock;
+// that costs overlap, so the time of a whole frame is measured in other frames, without a PassClock.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <string_view>
+
+#include "renderer/gl_context.h"
+#include "renderer/gl_object.h"
+
+namespace renderer {
+
+enum class Pass { depth, prepass, lookup, lit, footprint };
+inline constexpr std::size_t kPasses = 5;
+inline constexpr std::array<Pass, kPasses> kAllPasses = {Pass::depth, Pass::prepass, Pass::lookup, Pass::lit,
+                                                         Pass::footprint};
+std::string_view toText(Pass pass);
+
+using PassTimesMs = std::array<double, kPasses>;  ///< indexed by Pass; 0 for a pass that the frame did not have
+
+class PassClock {
+  public:
+    explicit PassClock(const GlInfo& info);
+
+    void begin(Pass pass);
+    void end(Pass pass);
+
+    /// The times since the last call; waits for the GPU.
+    PassTimesMs collectMs();
+    /// "timer queries" or "finish and steady clock".
+    std::string_view method() const;
+
+  private:
+    bool byQueries_;
+    std::array<Query, kPasses> queries_;
+    std::array<bool, kPasses> used_{};
+    std::chrono::steady_clock::time_point start_;
+    PassTimesMs times_{};
+};
+
+}  // namespace renderer

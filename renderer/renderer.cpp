@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/renderer.h"
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <stdexcept>
+
+namespace renderer {
+namespace {
+
+/// A pass in the GL debugger, on the clock, and nothing else.
+class PassScope {
+  public:
+    PassScope(Pass pass, PassClock* clock) : pass_(pass), clock_(clock) {
+        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, std::string(toText(pass)).c_str());
+        if (clock_ != nullptr) clock_->begin(pass_);
+    }
+    ~PassScope() {
+        if (clock_ != nullptr) clock_->end(pass_);
+        glPopDebugGroup();
+    }
+    PassScope(const PassScope&) = delete;
+    PassScope& operator=(const PassScope&) = delete;
+
+  private:
+    Pass pass_;
+    PassClock* clock_;
+};
+
+[[noreturn]] void rejectSetting(const std::string& name, const std::string& value, const std::string& rule) {
+    throw std::invalid_argument("frame settings: " + name + " is " + value + ", must be " + rule);
+}
+
+void checkUnit(const std::string& name, float value) {
+    if (!(value >= 0 && value <= 1)) rejectSetting(name, std::to_string(value), "in [0, 1]");
+}
+
+/// A late-afternoon sky; chosen by eye.
+f32::LookConstants lookOf(const Sun& sun) {
+    return {.sunColour = glm::vec4(sun.colour, 0),
+            .zenithColour = {0.30F, 0.48F, 0.80F, 0},
+            .horizonColour = {0.92F, 0.90F, 0.86F, 0},
+            .groundColour = {0.22F, 0.19F, 0.16F, 0},
+            .tone = {1.25F, 42.0F, 0, 0}};
+}
+
+template <class Block>
+Buffer makeUniformBlock(const Block& block, std::string_view label) {
+    return makeBuffer(&block, sizeof block, GL_DYNAMIC_STORAGE_BIT, label);
+}
+
+template <class Block>
+void bindUniformBlock(const Buffer& buffer, const Block& block, unsigned binding) {
+    glNamedBufferSubData(buffer.name(), 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer.name());
+}
+
+void bindTextures(std::initializer_list<GLuint> names) {
+    GLuint unit = 0;
+    for (const GLuint name : names) glBindTextureUnit(unit++, name);
+}
+
+void throwOnGlError() {
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR)
+        throw std::runtime_error("rendering: the driver reports GL error " + std::to_string(error) +
+                                 (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
+}
+
+}  // namespace
+
+f64::ViewConstants toDouble(const f32::ViewConstants& c) {
+    return {glm::dmat4(c.clipFromEyeRelative), glm::dvec4(c.eye), glm::dvec4(c.pixelRight), glm::dvec4(c.pixelUp),
+            glm::dvec4(c.forward), glm::dvec4(c.viewport)};
+}
+
+f64::ShadowConstants toDouble(const f32::ShadowConstants& c) {
+    return {glm::dmat4(c.shadowFromEyeRelative),
+            glm::dmat4(c.shadowFromWorld),
+            glm::dvec4(c.towardsLight),
+            glm::dvec4(c.map),
+            glm::dvec4(c.kernel),
+            {glm::dvec4(c.parameters[0]), glm::dvec4(c.parameters[1])}};
+}
+
+void FrameSettings::validate(const GlInfo& info) const {
+    if (resolution < 1 || resolution > info.maxResolution)
+        rejectSetting("resolution", std::to_string(resolution),
+                      "in [1, " + std::to_string(info.maxResolution) + "], what the driver allows (" + info.renderer +
+                          ")");
+    checkUnit("radiusUv", radiusUv);
+    checkUnit("minRadiusUv", minRadiusUv);
+}
+
+Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx, const ShaderLibrary& shaders)
+    : info_(info), shaders_(shaders) {
+    depthProgram_ = makeProgram(shaders_, "passes/depth.vert", "passes/depth.frag", {});
+    prepassProgram_ = makeProgram(shaders_, "passes/prepass.vert", "passes/prepass.frag", {});
+    footprintProgram_ = makeProgram(shaders_, "passes/fullscreen.vert", "passes/footprint.frag", {});
+    litProgram_ = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lit.frag", {});
+    lookupPrograms_.resize(techniques().size());
+
+    viewBlock_ = makeUniformBlock(view_, "view constants");
+    shadowBlock_ = makeUniformBlock(shadow_, "shadow constants");
+    lookBlock_ = makeUniformBlock(f32::LookConstants{}, "look constants");
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    noGeometry_ = VertexArray(name);
+
+    setScene(std::move(scene));
+    resize(widthPx, heightPx);
+}
+
+void Renderer::setScene(Scene scene) {
+    window_ = fitShadowWindow(scene.casters, scene.sun);
+    scene_ = std::move(scene);
+    uploadScene();
+}
+
+void Renderer::setCamera(const OrbitCamera& camera) {
+    scene_.camera = camera;
+}
+
+void Renderer::setSun(const Sun& sun) {
+    window_ = fitShadowWindow(scene_.casters, sun);
+    scene_.sun = sun;
+}
+
+void Renderer::uploadScene() {
+    Mesh all;
+    ranges_.clear();
+    for (const SceneObject& object : scene_.objects) {
+        ranges_.push_back({object.material, static_cast<GLsizei>(object.mesh.indices.size()), all.indices.size()});
+        all.append(object.mesh);
+    }
+    if (all.indices.empty()) throw std::invalid_argument("scene \"" + scene_.name + "\" has no triangles");
+    indexCount_ = all.indices.size();
+    vertices_ = makeBuffer(all.vertices.data(), static_cast<GLsizeiptr>(all.vertices.size() * sizeof(Vertex)), 0,
+                           "vertices");
+    indices_ = makeBuffer(all.indices.data(), static_cast<GLsizeiptr>(indexCount_ * sizeof(std::uint32_t)), 0,
+                          "indices");
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    geometry_ = VertexArray(name);
+    glVertexArrayVertexBuffer(name, 0, vertices_.name(), 0, sizeof(Vertex));
+    glVertexArrayElementBuffer(name, indices_.name());
+    for (const GLuint attribute : {0U, 1U}) {
+        glEnableVertexArrayAttrib(name, attribute);
+        glVertexArrayAttribFormat(name, attribute, 3, GL_FLOAT, GL_FALSE, attribute * 12);
+        glVertexArrayAttribBinding(name, attribute, 0);
+    }
+}
+
+void Renderer::resize(int widthPx, int heightPx) {
+    if (widthPx == widthPx_ && heightPx == heightPx_) return;
+    if (widthPx < 1 || heightPx < 1 || widthPx > info_.maxResolution || heightPx > info_.maxResolution)
+        throw std::invalid_argument("viewport is " + std::to_string(widthPx) + " x " + std::to_string(heightPx) +
+                                    " px, each edge must be in [1, " + std::to_string(info_.maxResolution) + "]");
+    const auto target = [&](GLenum format, std::string_view label) {
+        return makeTexture(format, widthPx, heightPx, label);
+    };
+    positions_ = target(GL_RGBA32F, "positions");
+    planes_ = target(GL_RGBA32F, "planes");
+    normals_ = target(GL_RGBA16F, "normals");
+    albedos_ = target(GL_SRGB8_ALPHA8, "albedos");
+    surfaceDepth_ = target(GL_DEPTH_COMPONENT32F, "surface depth");
+    visibility_ = target(GL_R32F, "visibility");
+    lit_ = target(GL_RGBA8, "lit");
+    prepassTarget_ = makeFramebuffer({positions_.name(), planes_.name(), normals_.name(), albedos_.name()},
+                                     surfaceDepth_.name(), "prepass");
+    visibilityTarget_ = makeFramebuffer({visibility_.name()}, 0, "lookup");
+    litTarget_ = makeFramebuffer({lit_.name()}, 0, "lit");
+    widthPx_ = widthPx;
+    heightPx_ = heightPx;
+}
+
+std::size_t Renderer::targetBytes() const {
+    const std::size_t perPixel = 16 + 16 + 8 + 4 + 4 + 4 + 4;  // in the order of resize()
+    return perPixel * static_cast<std::size_t>(widthPx_) * static_cast<std::size_t>(heightPx_);
+}
+
+std::size_t Renderer::mapBytes() const {
+    return static_cast<std::size_t>(mapEdge_) * static_cast<std::size_t>(mapEdge_) *
+           static_cast<std::size_t>(bytesPerTexel(MapFormat::depth32f));
+}
+
+std::size_t Renderer::triangles() const {
+    return indexCount_ / 3;
+}
+
+void Renderer::reserveMap(int edge) {
+    if (edge < 0 || edge > info_.maxResolution)
+        throw std::invalid_argument("map reserve is " + std::to_string(edge) + " texels, must be in [0, " +
+                                    std::to_string(info_.maxResolution) + "]");
+    reservedEdge_ = edge;
+}
+
+void Renderer::ensureMap(int resolution) {
+    const int edge = std::max(resolution, reservedEdge_);
+    if (edge == mapEdge_) return;
+    // The old one first: two maps at once may be more than there is room for.
+    mapTarget_ = {};
+    map_ = {};
+    mapEdge_ = 0;
+    map_ = makeTexture(GL_DEPTH_COMPONENT32F, edge, edge, "shadow map");
+    mapTarget_ = makeFramebuffer({}, map_.name(), "shadow map");
+    mapEdge_ = edge;
+}
+
+void Renderer::updateConstants(const FrameSettings& settings) {
+    const OrbitCamera& camera = scene_.camera;
+    const auto width = static_cast<float>(widthPx_);
+    const auto height = static_cast<float>(heightPx_);
+    const glm::vec3 eye = camera.eye();
+    const glm::vec3 forward = glm::normalize(camera.target - eye);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0)));
+    const glm::vec3 up = glm::cross(right, forward);
+    const float verticalField = glm::radians(camera.verticalFieldDeg);
+    const float pixel = 2 * std::tan(verticalField / 2) / height;
+
+    view_.clipFromEyeRelative = glm::perspectiveRH_ZO(verticalField, width / height, 0.02F * camera.distanceM, 200.0F) *
+                                glm::lookAtRH(glm::vec3(0), forward, glm::vec3(0, 1, 0));
+    view_.eye = glm::vec4(eye, 0);
+    view_.pixelRight = glm::vec4(right * pixel, 0);
+    view_.pixelUp = glm::vec4(up * pixel, 0);
+    view_.forward = glm::vec4(forward, 0);
+    view_.viewport = {width, height, 1 / width, 1 / height};
+
+    const glm::dmat4 fromEyeRelative = window_.shadowFromWorld * glm::translate(glm::dmat4(1), glm::dvec3(eye));
+    const Technique& technique = settings.technique != nullptr ? *settings.technique : techniques().front();
+    const ParameterValues values = settings.parameters.value_or(technique.standardParameters());
+    const auto resolution = static_cast<float>(settings.resolution);
+    shadow_.shadowFromEyeRelative = glm::mat4(fromEyeRelative);
+    shadow_.shadowFromWorld = glm::mat4(window_.shadowFromWorld);
+    shadow_.towardsLight = glm::vec4(window_.towardsLight, 0);
+    shadow_.map = {resolution, 1 / resolution, 1 / static_cast<float>(mapEdge_), 0};
+    shadow_.kernel = {settings.radiusUv, settings.minRadiusUv, 0, 0};
+    shadow_.parameters[0] = glm::make_vec4(values.data());
+    shadow_.parameters[1] = glm::make_vec4(values.data() + 4);
+
+    bindUniformBlock(viewBlock_, view_, kViewBinding);
+    bindUniformBlock(shadowBlock_, shadow_, kShadowBinding);
+    bindUniformBlock(lookBlock_, lookOf(scene_.sun), kLookBinding);
+}
+
+const Program& Renderer::lookupProgram(const Technique& technique) {
+    const auto row = static_cast<std::size_t>(&technique - techniques().data());
+    Program& program = lookupPrograms_.at(row);
+    if (program.name() != 0) return program;
+    ShaderOptions options{.defines = {{"TECHNIQUE", std::string(technique.name)}},
+                          .substitutions = {{"technique", technique.shaderFile()}}};
+    for (std::size_t i = 0; i < technique.parameters.size(); ++i)
+        options.defines.push_back({"PARAMETER_" + std::string(technique.parameters[i].name),
+                                   "shadow.parameters[" + std::to_string(i / 4) + "][" + std::to_string(i % 4) + "]"});
+    program = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lookup.frag", options);
+    return program;
+}
+
+void Renderer::render(const FrameSettings& settings, PassClock* clock) {
+    settings.validate(info_);
+    const Technique& technique = settings.technique != nullptr ? *settings.technique : techniques().front();
+    lookupProgram(technique);
+    ensureMap(settings.resolution);
+    updateConstants(settings);
+    {
+        const PassScope scope(Pass::depth, clock);
+        drawDepth();
+    }
+    {
+        const PassScope scope(Pass::prepass, clock);
+        drawPrepass();
+    }
+    {
+        const PassScope scope(Pass::lookup, clock);
+        drawLookup(technique);
+    }
+    if (settings.lit) {
+        const PassScope scope(Pass::lit, clock);
+        drawLit();
+    }
+    throwOnGlError();
+}
+
+void Renderer::drawDepth() {
+    const auto edge = static_cast<GLsizei>(shadow_.map.x);
+    glBindFramebuffer(GL_FRAMEBUFFER, mapTarget_.name());
+    glViewport(0, 0, edge, edge);
+    // The sub-rectangle alone: clearing a large texture costs more than drawing a small map.
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, edge, edge);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glEnable(GL_DEPTH_CLAMP);
+    const float farthest = 1;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glUseProgram(depthProgram_.name());
+    glBindVertexArray(geometry_.name());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indexCount_), GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_DEPTH_CLAMP);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::drawPrepass() {
+    glBindFramebuffer(GL_FRAMEBUFFER, prepassTarget_.name());
+    glViewport(0, 0, widthPx_, heightPx_);
+    glEnable(GL_DEPTH_TEST);
+    const std::array<float, 4> none{};
+    const float farthest = 1;
+    for (GLint target = 0; target < 4; ++target) glClearBufferfv(GL_COLOR, target, none.data());
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glEnable(GL_FRAMEBUFFER_SRGB);  // albedos
+    glUseProgram(prepassProgram_.name());
+    glBindVertexArray(geometry_.name());
+    for (const DrawRange& range : ranges_) {
+        const Material& material = range.material;
+        const glm::vec4 albedo(material.albedo, material.gloss);
+        const glm::vec4 second(material.second, material.periodM);
+        glUniform4fv(0, 1, glm::value_ptr(albedo));
+        glUniform4fv(1, 1, glm::value_ptr(second));
+        glUniform1ui(2, static_cast<GLuint>(material.pattern));
+        glDrawElements(GL_TRIANGLES, range.indices, GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(range.firstIndex * sizeof(std::uint32_t)));
+    }
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::drawLookup(const Technique& technique) {
+    glBindFramebuffer(GL_FRAMEBUFFER, visibilityTarget_.name());
+    glViewport(0, 0, widthPx_, heightPx_);
+    bindTextures({positions_.name(), planes_.name(), map_.name()});
+    glUseProgram(lookupProgram(technique).name());
+    glBindVertexArray(noGeometry_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::drawLit() {
+    glBindFramebuffer(GL_FRAMEBUFFER, litTarget_.name());
+    glViewport(0, 0, widthPx_, heightPx_);
+    bindTextures({positions_.name(), planes_.name(), normals_.name(), albedos_.name(), visibility_.name()});
+    glUseProgram(litProgram_.name());
+    glBindVertexArray(noGeometry_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace renderer

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// A frame: prepass (visible surfaces), depth pass (the light's map at N x N), lookup pass (visibility of every pixel,
+// into its own target), lit pass. It renders whatever N, radius and technique it is given and knows nothing of how
+// they were chosen; footprintsUv() is what a chooser needs to know of the frame.
+//
+//   renderer::HeadlessContext context;
+//   renderer::Renderer renderer(context.info(), renderer::makeScene("yard"), 1280, 720);
+//   renderer.render({.technique = &renderer::findTechnique("pcf_disc"), .resolution = 1024, .radiusUv = .004F});
+//   const renderer::ByteImage picture = renderer.readLit();
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "renderer/gl_context.h"
+#include "renderer/gl_object.h"
+#include "renderer/image.h"
+#include "renderer/pass_clock.h"
+#include "renderer/scene.h"
+#include "renderer/shader_library.h"
+#include "renderer/shadow_window.h"
+#include "renderer/technique.h"
+
+namespace renderer {
+
+struct FrameSettings {
+    const Technique* technique = nullptr;       ///< null: the table's first
+    std::optional<ParameterValues> parameters;  ///< absent: the technique's defaults
+    int resolution = 1024;                      ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
+    float radiusUv = 0;                         ///< kernel radius as a fraction of the map's extent, 0 .. 1
+    float minRadiusUv = 0;                      ///< least radius where a texel is larger than a pixel, 0 .. 1
+    bool lit = true;                            ///< false leaves the lit pass out
+
+    /// Throws std::invalid_argument that names the field, its value and its range.
+    void validate(const GlInfo& info) const;
+};
+
+class Renderer {
+  public:
+    /// Compiles every pass. Throws std::runtime_error for a shader that does not compile.
+    Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
+             const ShaderLibrary& shaders = ShaderLibrary::embedded());
+
+    void setScene(Scene scene);
+    void resize(int widthPx, int heightPx);
+    void setCamera(const OrbitCamera& camera);
+    void setSun(const Sun& sun);
+    /// From now on the map's texture has at least this edge, and a smaller N takes a sub-rectangle of it; 0 (the
+    /// default) makes the texture anew whenever N changes, exactly as large as the map.
+    void reserveMap(int edge);
+
+    const Scene& scene() const { return scene_; }
+    const ShadowWindow& window() const { return window_; }
+    int widthPx() const { return widthPx_; }
+    int heightPx() const { return heightPx_; }
+
+    /// Draws a frame. With a clock its passes are timed. Throws std::invalid_argument for settings out of range and
+    /// std::runtime_error where the driver has no room for the map or reports an error.
+    void render(const FrameSettings& settings, PassClock* clock = nullptr);
+
+    /// For one pixel in spacing x spacing of the last frame's prepass: the edge of one screen pixel on the map, as a
+    /// fraction of its extent; 0 where the map cannot matter (sky, turned from the light, outside the map). Which
+    /// pixel of each cell is taken rotates with `phase`. Waits for the GPU.
+    std::vector<float> footprintsUv(int spacing, unsigned phase, PassClock* clock = nullptr);
+
+    ByteImage readLit();             ///< sRGB codes, 3 channels
+    FloatImage readVisibility();     ///< 1 lit
+    FloatImage readShadowMap();      ///< N x N linear depth
+    FloatImage readPositions();      ///< 4 channels: relative to the eye; w 0 is sky
+    FloatImage readPlanes();         ///< 4 channels: unit normal of the triangle
+    unsigned litFramebuffer() const { return litTarget_.name(); }
+
+    /// As the last frame had them: the CPU evaluates the same pixels with these.
+    const f32::ViewConstants& viewConstants() const { return view_; }
+    const f32::ShadowConstants& shadowConstants() const { return shadow_; }
+
+    std::size_t mapBytes() const;        ///< of the last frame's map
+    std::size_t targetBytes() const;     ///< of everything that has the viewport's size
+    std::size_t triangles() const;
+
+  private:
+    struct DrawRange {
+        Material material;
+        GLsizei indices = 0;
+        std::size_t firstIndex = 0;
+    };
+
+    void uploadScene();
+    void updateConstants(const FrameSettings& settings);
+    void ensureMap(int resolution);
+    const Program& lookupProgram(const Technique& technique);
+    void drawDepth();
+    void drawPrepass();
+    void drawLookup(const Technique& technique);
+    void drawLit();
+
+    GlInfo info_;
+    ShaderLibrary shaders_;
+    Scene scene_;
+    ShadowWindow window_;
+    int widthPx_ = 0;
+    int heightPx_ = 0;
+
+    Buffer vertices_, indices_;
+    VertexArray geometry_, noGeometry_;
+    std::vector<DrawRange> ranges_;
+    std::size_t indexCount_ = 0;
+
+    Buffer viewBlock_, shadowBlock_, lookBlock_;
+    f32::ViewConstants view_{};
+    f32::ShadowConstants shadow_{};
+
+    Program depthProgram_, prepassProgram_, footprintProgram_, litProgram_;
+    std::vector<Program> lookupPrograms_;  // one per row of the technique table, made when first used
+
+    int reservedEdge_ = 0;
+    int mapEdge_ = 0;
+    Texture map_;
+    Framebuffer mapTarget_;
+    Texture positions_, planes_, normals_, albedos_, surfaceDepth_, visibility_, lit_;
+    Framebuffer prepassTarget_, visibilityTarget_, litTarget_;
+    Texture footprints_;
+    Framebuffer footprintTarget_;
+    int footprintWidth_ = 0, footprintHeight_ = 0;
+};
+
+}  // namespace renderer

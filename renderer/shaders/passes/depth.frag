@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// Depth pass: nothing but depth is stored.
+void main() {}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Lookup pass: the technique's visibility of every pixel, into a target of its own, so that errors are measured on
+// visibility and not on shaded colour. 1 is lit; the sky is lit.
+#include "shared/blocks.glsl"
+#include "shared/receiver.glsl"
+#include "shared/depth_compare.glsl"
+#include "shared/disc_kernel.glsl"
+#include "technique"
+
+layout(binding = 0) uniform sampler2D positions;
+layout(binding = 1) uniform sampler2D planes;
+layout(binding = 2) uniform sampler2D shadowMap;
+
+layout(location = 0) out float outVisibility;
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 position = texelFetch(positions, pixel, 0);
+    outVisibility = 1.0;
+    if (position.w == 0.0) return;
+    ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
+    outVisibility = receiver.facesLight ? filterVisibility(shadowMap, receiver, shadow) : 0.0;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What C++ and GLSL share: the uniform blocks of a frame. Compiled as GLSL (real is float) and as C++ for float and
+// double (renderer/shader_math.h, which asserts the std140 offsets). Only 16-byte members, so that std140 holds no
+// surprises.
+
+// The camera. Positions are relative to the eye: world coordinates far from the origin would lose bits.
+struct ViewConstants {
+    real4x4 clipFromEyeRelative;  // camera projection x view, without the translation
+    real4 eye;                    // xyz world position of the camera
+    real4 pixelRight;             // xyz right vector x width of one pixel at distance 1 along the view axis
+    real4 pixelUp;                // xyz up vector x height of one pixel at distance 1
+    real4 forward;                // xyz view axis, unit length
+    real4 viewport;               // x width, y height in px, z 1/width, w 1/height
+};
+
+// One light with its map and kernel.
+struct ShadowConstants {
+    real4x4 shadowFromEyeRelative;  // to (u w, v w, depth, w): depth is linear in [0,1], 0 near, and not divided by w
+    real4x4 shadowFromWorld;        // the same from world positions, for the depth pass
+    real4 towardsLight;             // xyz unit vector to the light
+    real4 map;                      // x resolution N in texels, y 1/N, z 1/(edge of the texture that holds the map)
+    real4 kernel;                   // x radius, y least radius where texels show; both as a fraction of the map's extent
+    real4 parameters[2];            // of the technique, in the order of its table row
+};
+
+// How the lit pass looks. Colours are linear light.
+struct LookConstants {
+    real4 sunColour;
+    real4 zenithColour;
+    real4 horizonColour;
+    real4 groundColour;  // light that the ground throws back up
+    real4 tone;          // x exposure, y distance in m at which haze takes half
+};

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A window with an OpenGL 4.5 core context (GLFW), and what the user did in it since the last look.
+//
+//   renderer::Window window("shadow_demo", 1280, 720);
+//   while (!window.closeWanted()) { const auto input = window.poll(); ...; window.present(framebuffer, w, h); }
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/gl_context.h"
+
+namespace renderer {
+
+struct WindowInput {
+    std::vector<char> keys;            ///< letters and digits pressed, upper case; '\x1b' is Esc
+    double dragX = 0, dragY = 0;       ///< px moved with the left button held; y down
+    double scroll = 0;                 ///< wheel clicks, up positive
+    int widthPx = 0, heightPx = 0;     ///< of the framebuffer now; 0 while minimised
+};
+
+class Window {
+  public:
+    /// Throws std::runtime_error with GLFW's reason: no display, no OpenGL 4.5.
+    Window(const std::string& title, int widthPx, int heightPx);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    const GlInfo& info() const { return info_; }
+    bool closeWanted() const;
+    WindowInput poll();
+    void setTitle(const std::string& title);
+    /// Copies a framebuffer object of that size into the window and swaps.
+    void present(unsigned framebuffer, int widthPx, int heightPx);
+
+  private:
+    struct Handle;
+    std::unique_ptr<Handle> handle_;
+    GlInfo info_;
+};
+
+}  // namespace renderer
