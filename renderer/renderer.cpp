@@ -40,10 +40,11 @@ void checkUnit(const std::string& name, float value) {
 /// A late-afternoon sky; chosen by eye.
 f32::LookConstants lookOf(const Sun& sun) {
     return {.sunColour = glm::vec4(sun.colour, 0),
-            .zenithColour = {0.30F, 0.48F, 0.80F, 0},
-            .horizonColour = {0.92F, 0.90F, 0.86F, 0},
-            .groundColour = {0.22F, 0.19F, 0.16F, 0},
-            .tone = {1.25F, 42.0F, 0, 0}};
+            .zenithColour = {0.13F, 0.33F, 0.85F, 0},
+            .horizonColour = {0.72F, 0.86F, 1.05F, 0},
+            .skyLight = {0.30F, 0.39F, 0.56F, 0},
+            .groundLight = {0.36F, 0.29F, 0.22F, 0},
+            .tone = {0.66F, 60.0F, 0, 0}};
 }
 
 template <class Block>

@@ -10,9 +10,9 @@
 namespace renderer {
 namespace {
 
-constexpr Material kPaving{.albedo = {0.50F, 0.47F, 0.43F},
+constexpr Material kPaving{.albedo = {0.34F, 0.30F, 0.25F},
                            .pattern = Pattern::tiles,
-                           .second = {0.30F, 0.28F, 0.26F},
+                           .second = {0.16F, 0.14F, 0.12F},
                            .periodM = 0.8F};
 
 SceneObject paving() {
@@ -67,9 +67,9 @@ Scene planarOccluder() {
     plate = transformed(std::move(plate), glm::translate(glm::mat4(1), glm::vec3(0, kHeight, 0)));
 
     scene.objects.push_back(paving());
-    scene.objects.push_back({"plate", std::move(plate), {.albedo = {0.72F, 0.16F, 0.10F}, .gloss = 0.15F}});
+    scene.objects.push_back({"plate", std::move(plate), {.albedo = {0.50F, 0.075F, 0.045F}, .gloss = 0.03F}});
     scene.casters = casterBounds(scene.objects);
-    scene.camera = {.target = {-0.55F, 0.55F, 0.35F}, .yawDeg = -28, .pitchDeg = 27, .distanceM = 8.2F, .verticalFieldDeg = 38};
+    scene.camera = {.target = {-0.7F, 0.75F, 0.0F}, .yawDeg = -28, .pitchDeg = 21, .distanceM = 6.9F, .verticalFieldDeg = 38};
     scene.sun = {.azimuthDeg = 62, .elevationDeg = 50};
     scene.softnessM = 0.055F;
     return scene;
@@ -110,21 +110,21 @@ Scene yard() {
     Scene scene;
     scene.name = "yard";
     scene.objects.push_back(paving());
-    scene.objects.push_back({"fence", picketFence({-2.9F, 0, -1.35F}, {3.1F, 0, -2.15F}, 1.05F, 0.2F),
+    scene.objects.push_back({"fence", picketFence({-2.6F, 0, -2.3F}, {3.0F, 0, -1.0F}, 1.05F, 0.2F),
                              {.albedo = {0.78F, 0.72F, 0.62F}, .gloss = 0.05F}});
     Mesh posts = column({-1.9F, 0, 0.25F}, 0.13F, 1.9F);
     posts.append(column({-0.55F, 0, -0.35F}, 0.13F, 1.45F));
     posts.append(column({2.15F, 0, -0.55F}, 0.13F, 1.7F));
     scene.objects.push_back({"posts", std::move(posts), {.albedo = {0.60F, 0.56F, 0.50F}, .gloss = 0.05F}});
     scene.objects.push_back({"large sphere", sphere({0.85F, 0.5F, 0.15F}, 0.5F), {.albedo = {0.70F, 0.20F, 0.09F}, .gloss = 0.5F}});
-    scene.objects.push_back({"banded sphere", sphere({-0.35F, 0.27F, 1.15F}, 0.27F),
+    scene.objects.push_back({"banded sphere", sphere({-0.35F, 0.27F, 1.15F}, 0.27F, 64, 32),
                              {.albedo = {0.80F, 0.78F, 0.72F}, .gloss = 0.35F, .pattern = Pattern::bands,
                               .second = {0.05F, 0.27F, 0.30F}, .periodM = 0.18F}});
-    scene.objects.push_back({"small sphere", sphere({2.0F, 0.2F, 0.85F}, 0.2F), {.albedo = {0.80F, 0.52F, 0.10F}, .gloss = 0.4F}});
-    scene.objects.push_back({"high sphere", sphere({-0.55F, 1.66F, -0.35F}, 0.21F), {.albedo = {0.10F, 0.32F, 0.36F}, .gloss = 0.5F}});
+    scene.objects.push_back({"small sphere", sphere({2.0F, 0.2F, 0.85F}, 0.2F, 64, 32), {.albedo = {0.80F, 0.52F, 0.10F}, .gloss = 0.4F}});
+    scene.objects.push_back({"high sphere", sphere({-0.55F, 1.66F, -0.35F}, 0.21F, 64, 32), {.albedo = {0.10F, 0.32F, 0.36F}, .gloss = 0.5F}});
     scene.casters = casterBounds(scene.objects);
-    scene.camera = {.target = {0.1F, 0.55F, -0.1F}, .yawDeg = 12, .pitchDeg = 21, .distanceM = 7.6F, .verticalFieldDeg = 34};
-    scene.sun = {.azimuthDeg = 146, .elevationDeg = 40};
+    scene.camera = {.target = {0.1F, 0.72F, -0.1F}, .yawDeg = 12, .pitchDeg = 18, .distanceM = 7.4F, .verticalFieldDeg = 34};
+    scene.sun = {.azimuthDeg = 138, .elevationDeg = 42};
     scene.softnessM = 0.03F;
     return scene;
 }

@@ -88,11 +88,12 @@ static_assert(offsetof(f32::ShadowConstants, towardsLight) == 128);
 static_assert(offsetof(f32::ShadowConstants, map) == 144);
 static_assert(offsetof(f32::ShadowConstants, kernel) == 160);
 static_assert(offsetof(f32::ShadowConstants, parameters) == 176);
-static_assert(sizeof(f32::LookConstants) == 80);
+static_assert(sizeof(f32::LookConstants) == 96);
 static_assert(offsetof(f32::LookConstants, zenithColour) == 16);
 static_assert(offsetof(f32::LookConstants, horizonColour) == 32);
-static_assert(offsetof(f32::LookConstants, groundColour) == 48);
-static_assert(offsetof(f32::LookConstants, tone) == 64);
+static_assert(offsetof(f32::LookConstants, skyLight) == 48);
+static_assert(offsetof(f32::LookConstants, groundLight) == 64);
+static_assert(offsetof(f32::LookConstants, tone) == 80);
 
 /// Binding points of the uniform blocks (BINDING_... in the shaders).
 inline constexpr unsigned kViewBinding = 0, kShadowBinding = 1, kLookBinding = 2;

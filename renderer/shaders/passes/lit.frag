@@ -17,11 +17,8 @@ vec3 skyColour(vec3 direction) {
     return sky + look.sunColour.rgb * (0.03 * pow(towardsSun, 8.0) + 0.12 * pow(towardsSun, 64.0));
 }
 
-// Filmic curve (J. Hable, "Filmic tonemapping operators", 2010), white at 6.
-vec3 filmic(vec3 x) {
-    const float a = 0.22, b = 0.30, c = 0.10, d = 0.20, e = 0.01, f = 0.30;
-    return ((x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f)) - e / f;
-}
+// Filmic curve (K. Narkowicz, "ACES filmic tone mapping curve", 2016).
+vec3 filmic(vec3 x) { return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0); }
 
 vec3 srgb(vec3 linear) {
     vec3 low = 12.92 * linear;
@@ -42,7 +39,7 @@ void main() {
         float visibility = texelFetch(visibilities, pixel, 0).x;
         vec3 light = shadow.towardsLight.xyz;
 
-        vec3 surround = mix(look.groundColour.rgb, look.zenithColour.rgb, 0.5 + 0.5 * normal.y);
+        vec3 surround = mix(look.groundLight.rgb, look.skyLight.rgb, 0.5 + 0.5 * normal.y);
         vec3 sun = look.sunColour.rgb * visibility;
         float diffuse = max(dot(normal, light), 0.0);
         float sheen = pow(max(dot(normal, normalize(light - ray)), 0.0), 4.0 + 120.0 * plane.w) * plane.w;
@@ -52,5 +49,5 @@ void main() {
         float haze = 1.0 - exp2(-(distance * distance) / (look.tone.y * look.tone.y));
         colour = mix(lit, skyColour(normalize(vec3(ray.x, max(ray.y, 0.0), ray.z))), haze);
     }
-    outColour = vec4(srgb(filmic(colour * look.tone.x) / filmic(vec3(6.0))), 1.0);
+    outColour = vec4(srgb(filmic(colour * look.tone.x)), 1.0);
 }

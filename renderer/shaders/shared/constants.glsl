@@ -28,6 +28,7 @@ struct LookConstants {
     real4 sunColour;
     real4 zenithColour;
     real4 horizonColour;
-    real4 groundColour;  // light that the ground throws back up
+    real4 skyLight;      // what the whole sky sheds on a surface that faces up
+    real4 groundLight;   // what the ground throws back at one that faces down
     real4 tone;          // x exposure, y distance in m at which haze takes half
 };
