@@ -159,8 +159,12 @@ void writeSidecar(const std::filesystem::path& file, const SessionSidecar& sidec
     writeJson(file, written);
 }
 
+SessionSidecar parseSidecar(std::string_view text, const std::string& file) {
+    return sidecarFrom(parseJson(text, file), file);
+}
+
 SessionSidecar readSidecar(const std::filesystem::path& file) {
-    return sidecarFrom(readJson(file), file.string());
+    return parseSidecar(readWholeFile(file), file.string());
 }
 
 void registerParticipant(const std::filesystem::path& dataFolder, const std::string& participant) {

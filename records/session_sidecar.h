@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "records/run_context.h"
 #include "records/trial_table.h"
@@ -46,6 +47,8 @@ std::filesystem::path sidecarPath(const std::filesystem::path& trialTable);  ///
 void writeSidecar(const std::filesystem::path& file, const SessionSidecar& sidecar);
 /// Throws std::runtime_error with file, field, value and rule; refuses an unknown major schema.
 SessionSidecar readSidecar(const std::filesystem::path& file);
+/// The same on text that came from `file`.
+SessionSidecar parseSidecar(std::string_view text, const std::string& file);
 
 /// Creates dataset_description.json and participants.tsv where they are missing and adds the
 /// participant's row where it is missing. Never changes a row that is there: further columns (age,

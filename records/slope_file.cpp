@@ -8,6 +8,7 @@
 
 #include "records/json_document.h"
 #include "records/json_fields.h"
+#include "records/whole_file.h"
 
 namespace records {
 
@@ -170,8 +171,12 @@ void writeSlope(const std::filesystem::path& file, const Slope& slope) {
     writeJson(file, written);
 }
 
+Slope parseSlope(std::string_view text, const std::string& file) {
+    return slopeFrom(parseJson(text, file), file);
+}
+
 Slope readSlope(const std::filesystem::path& file) {
-    return slopeFrom(readJson(file), file.string());
+    return parseSlope(readWholeFile(file), file.string());
 }
 
 }  // namespace records

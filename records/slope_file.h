@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "records/run_context.h"
@@ -65,6 +66,8 @@ struct Slope {
     std::optional<double> pxPerDeg;  ///< where every session has it, their mean
     std::string method;              ///< one paragraph: estimator, intervals, screening, data
     RunContext context;
+
+    bool operator==(const Slope&) const = default;
 };
 
 /// The headline in one sentence, for every place that shows c, since c means nothing without its
@@ -84,5 +87,7 @@ void writeSlope(const std::filesystem::path& file, const Slope& slope);
 /// field, a number that is not finite, c <= 0, an interval that does not hold its order, a worst
 /// group that is not among the groups (where there are any).
 Slope readSlope(const std::filesystem::path& file);
+/// The same on text that came from `file`.
+Slope parseSlope(std::string_view text, const std::string& file);
 
 }  // namespace records
