@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// What a visible point asks of the shadow map, and the histogram of that over a frame.
+//
+// A point in penumbra whose filter radius is r (as a fraction of the map's extent) asks for
+// N = c / r texels (F. Kreuzer, "Using Perception-Based Filtering to Hide Shadow Artifacts",
+// section 6). A texel smaller than a screen pixel cannot be seen, so it never asks for more than
+// k / sigma, sigma being the pixel's footprint on the map. That also answers contact shadows, where
+// r -> 0 would ask for an infinite map.
+//
+//     resolution_controller::DemandHistogram histogram;
+//     for (each sampled pixel in penumbra)
+//         histogram.add(demand(c, radiusUv, pixelFootprint(duvDpixel)));
+//
+// The bins are found from the bits of the float, without a logarithm, so that a GPU that does the
+// same fills the same histogram; from there on there are only integers.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace resolution_controller {
+
+/// d(uv) / d(pixel) of the light-space coordinate, as dFdx and dFdy give it.
+struct UvDerivatives {
+    float dudx = 0, dvdx = 0, dudy = 0, dvdy = 0;
+};
+
+/// sigma: the smaller singular value of the derivatives, but at least a quarter of the larger one
+/// (grazing light would otherwise ask for infinity where N.L leaves little contrast). In uv per
+/// pixel; 0, which stands for "no bound", when the derivatives are all zero or not finite.
+float pixelFootprint(const UvDerivatives& derivatives) noexcept;
+
+/// N(p) = min(c / radiusUv, pixelBound / footprint), in texels. radiusUv 0 is a hard contact and
+/// asks for as much as the pixel shows (+inf without a footprint). `pixelBound` is k, 1 by default.
+/// 0, which add() rejects, when radiusUv is NaN, negative or infinite, or c is not positive and
+/// finite. A footprint that is not positive and finite sets no bound.
+float demand(float c, float radiusUv, float footprint, float pixelBound = 1) noexcept;
+
+/// log2 histogram of demands: bin b counts N in (2^(b/4), 2^((b+1)/4)]; the first also what is
+/// smaller, the last also what is larger. Laid out as the buffer that a GPU fills.
+struct DemandHistogram {
+    static constexpr std::size_t kBins = 64;
+
+    std::array<std::uint32_t, kBins> counts{};
+    std::uint32_t rejected = 0;  ///< demands that were NaN, zero or negative
+
+    constexpr void add(float demandedTexels) noexcept {
+        const int bin = binOf(demandedTexels);
+        if (bin < 0) {
+            ++rejected;
+        } else {
+            ++counts[static_cast<std::size_t>(bin)];
+        }
+    }
+
+    constexpr DemandHistogram& operator+=(const DemandHistogram& other) noexcept {
+        for (std::size_t b = 0; b < kBins; ++b) counts[b] += other.counts[b];
+        rejected += other.rejected;
+        return *this;
+    }
+
+    constexpr std::uint64_t total() const noexcept {
+        std::uint64_t sum = 0;
+        for (const std::uint32_t count : counts) sum += count;
+        return sum;
+    }
+
+    /// -1 for NaN, zero and negative numbers.
+    static constexpr int binOf(float demandedTexels) noexcept {
+        const auto bits = std::bit_cast<std::uint32_t>(demandedTexels);
+        constexpr std::uint32_t infinity = 0x7f800000u;
+        if (bits == 0 || bits > infinity) return -1;  // the sign bit makes it larger, too
+        // The mantissas of the largest floats up to 2^(1/4), 2^(1/2) and 2^(3/4).
+        const std::uint32_t mantissa = bits & 0x7fffffu;
+        const int quarter =
+            (mantissa > 0) + (mantissa > 1587184u) + (mantissa > 3474675u) + (mantissa > 5719292u);
+        const int bin = 4 * (static_cast<int>(bits >> 23) - 127) + quarter - 1;
+        return bin < 0 ? 0 : bin >= static_cast<int>(kBins) ? static_cast<int>(kBins) - 1 : bin;
+    }
+
+    /// Texels that satisfy every demand of the bin: its upper edge, rounded up. Of the last bin,
+    /// which has no upper edge, 65536.
+    static constexpr std::int32_t upperEdge(std::size_t bin) noexcept {
+        constexpr std::array<double, 4> quarters{1.189207115002721, 1.4142135623730951,
+                                                 1.681792830507429, 2.0};
+        const double edge = quarters[bin % 4] * static_cast<double>(1 << (bin / 4));
+        const auto whole = static_cast<std::int32_t>(edge);
+        return whole < edge ? whole + 1 : whole;
+    }
+
+    bool operator==(const DemandHistogram&) const = default;
+};
+static_assert(sizeof(DemandHistogram) == 65 * sizeof(std::uint32_t));
+
+}  // namespace resolution_controller

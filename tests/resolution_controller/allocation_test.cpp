@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The calls of a frame allocate nothing: counted by the operators themselves.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "resolution_controller/resolution_controller.h"
+
+namespace {
+std::atomic<long> allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+    throw std::bad_alloc();
+}
+void* operator new[](std::size_t size) {
+    return operator new(size);
+}
+void operator delete(void* p) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p) noexcept {
+    std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+    std::free(p);
+}
+
+namespace {
+
+namespace rc = resolution_controller;
+
+TEST(Allocation, IsCounted) {
+    const long before = allocations;
+    EXPECT_NE(rc::validate(rc::Settings{.percentile = 2}), "");
+    const long after = allocations;
+    EXPECT_GT(after, before);
+}
+
+TEST(Allocation, NoneInTheCallsOfAFrame) {
+    rc::ResolutionController controller({});
+    rc::DemandHistogram histogram;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    long reasonLength = 0;
+    const long before = allocations;
+    for (int frame = 0; frame < 500; ++frame) {
+        const float r = 0.0005f * float(1 + frame % 60);
+        histogram.add(rc::demand(3.47f, r, rc::pixelFootprint({.dudx = r, .dvdy = r})));
+        const rc::Frame limited{.budgetSize = frame % 7 == 0 ? std::optional(frame) : std::nullopt};
+        for (const rc::Decision& d :
+             {controller.update(histogram, limited), controller.update(double(r)),
+              controller.update(nan), controller.hold(limited),
+              controller.update(rc::DemandHistogram{})}) {
+            reasonLength += rc::text(d.reason)[0];
+        }
+    }
+    const long after = allocations;
+    EXPECT_EQ(after, before);
+    EXPECT_GT(reasonLength, 0);
+}
+
+static_assert(noexcept(std::declval<rc::ResolutionController&>().update(0.1)));
+static_assert(noexcept(std::declval<rc::ResolutionController&>().update(rc::DemandHistogram{})));
+static_assert(noexcept(std::declval<rc::ResolutionController&>().hold()));
+
+}  // namespace

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "resolution_controller/demand.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace {
+
+namespace rc = resolution_controller;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+TEST(Demand, IsTheLawWhereNoPixelBoundsIt) {
+    EXPECT_FLOAT_EQ(rc::demand(3.47f, 0.0347f, 0), 100);
+    EXPECT_FLOAT_EQ(rc::demand(3.47f, 2.0f, 0), 1.735f) << "a filter wider than the map";
+}
+
+TEST(Demand, NeverAsksForTexelsSmallerThanAPixel) {
+    const float footprint = 1.0f / 700;
+    EXPECT_FLOAT_EQ(rc::demand(3.47f, 1e-6f, footprint), 700);
+    EXPECT_FLOAT_EQ(rc::demand(3.47f, 0, footprint), 700) << "contact";
+    EXPECT_FLOAT_EQ(rc::demand(3.47f, 0, footprint, 2), 1400);
+    EXPECT_FLOAT_EQ(rc::demand(3.47f, 0.0347f, footprint), 100);
+}
+
+TEST(Demand, RejectsWhatIsNoRadius) {
+    for (const float radius : {kNan, -kNan, -1.0f, -0.001f, kInf, -kInf}) {
+        EXPECT_EQ(rc::demand(3.47f, radius, 0.01f), 0) << radius;
+    }
+    for (const float c : {kNan, 0.0f, -3.47f, kInf}) {
+        EXPECT_EQ(rc::demand(c, 0.01f, 0.01f), 0) << c;
+    }
+}
+
+TEST(Demand, AnUnusableFootprintSetsNoBound) {
+    for (const float footprint : {kNan, 0.0f, -1.0f, kInf}) {
+        EXPECT_FLOAT_EQ(rc::demand(3.47f, 0.0347f, footprint), 100) << footprint;
+        EXPECT_EQ(rc::demand(3.47f, 0, footprint), kInf);
+    }
+    for (const float bound : {kNan, 0.0f, -1.0f}) {
+        EXPECT_FLOAT_EQ(rc::demand(3.47f, 0.0347f, 0.1f, bound), 100) << bound;
+    }
+}
+
+/// Singular values through the eigenvalues of J'J, in double.
+std::pair<double, double> singularValues(const rc::UvDerivatives& d) {
+    const double a = double(d.dudx) * d.dudx + double(d.dvdx) * d.dvdx;
+    const double b = double(d.dudx) * d.dudy + double(d.dvdx) * d.dvdy;
+    const double c = double(d.dudy) * d.dudy + double(d.dvdy) * d.dvdy;
+    const double middle = (a + c) / 2, spread = std::hypot((a - c) / 2, b);
+    return {std::sqrt(std::max(0.0, middle - spread)), std::sqrt(middle + spread)};
+}
+
+TEST(Demand, FootprintIsTheSmallerSingularValueWithinTheAnisotropyLimit) {
+    std::mt19937_64 rng(1);
+    std::uniform_real_distribution<float> uniform(-0.01f, 0.01f);
+    for (int i = 0; i < 1000; ++i) {
+        const rc::UvDerivatives d{uniform(rng), uniform(rng), uniform(rng), uniform(rng)};
+        const auto [smaller, larger] = singularValues(d);
+        EXPECT_NEAR(rc::pixelFootprint(d), std::max(smaller, larger / 4), 1e-5 * larger);
+    }
+    // Grazing: the long side of the pixel's footprint is 100 times the short one.
+    EXPECT_FLOAT_EQ(rc::pixelFootprint({.dudx = 0.001f, .dvdy = 0.1f}), 0.025f);
+    // Turned by 45 degrees it is the same pixel.
+    const float s = std::sqrt(0.5f);
+    EXPECT_NEAR(
+        rc::pixelFootprint(
+            {.dudx = 0.002f * s, .dvdx = 0.002f * s, .dudy = -0.004f * s, .dvdy = 0.004f * s}),
+        0.002f, 1e-8);
+}
+
+TEST(Demand, FootprintOfUnusableDerivativesIsNone) {
+    EXPECT_EQ(rc::pixelFootprint({}), 0);
+    for (const float bad : {kNan, kInf, -kInf, 3e38f}) {
+        EXPECT_EQ(rc::pixelFootprint({bad, bad, bad, bad}), 0) << bad;
+        EXPECT_EQ(rc::pixelFootprint({0.01f, bad, 0, bad}), 0) << bad;
+    }
+}
+
+TEST(DemandHistogram, BinsAreQuarterOctavesOpenBelow) {
+    for (std::size_t b = 0; b < rc::DemandHistogram::kBins; ++b) {
+        const double edge = std::exp2(double(b + 1) / 4);
+        const auto below = std::nextafter(float(edge), 0.0f) <= edge && float(edge) > edge
+                               ? std::nextafter(float(edge), 0.0f)
+                               : float(edge);  // the largest float up to the edge
+        EXPECT_EQ(rc::DemandHistogram::binOf(below), int(b));
+        EXPECT_EQ(rc::DemandHistogram::binOf(std::nextafter(below, kInf)),
+                  std::min(int(b) + 1, 63));
+        EXPECT_EQ(rc::DemandHistogram::upperEdge(b), std::int32_t(std::ceil(edge - 1e-9)));
+    }
+}
+
+TEST(DemandHistogram, EveryFloatHasABinWhoseEdgeMeetsIt) {
+    std::mt19937_64 rng(2);
+    for (int i = 0; i < 200000; ++i) {
+        const auto n = std::bit_cast<float>(std::uint32_t(rng()));
+        const int bin = rc::DemandHistogram::binOf(n);
+        if (!(n > 0)) {
+            EXPECT_EQ(bin, -1) << n;
+        } else if (n <= 65536) {
+            ASSERT_GE(bin, 0);
+            EXPECT_GE(float(rc::DemandHistogram::upperEdge(std::size_t(bin))), n);
+        } else {
+            EXPECT_EQ(bin, 63) << n;
+        }
+    }
+    for (const float rejected : {0.0f, -0.0f, kNan, -kNan, -1.0f, -kInf}) {
+        EXPECT_EQ(rc::DemandHistogram::binOf(rejected), -1);
+    }
+    EXPECT_EQ(rc::DemandHistogram::binOf(kInf), 63);
+    EXPECT_EQ(rc::DemandHistogram::binOf(std::numeric_limits<float>::denorm_min()), 0);
+}
+
+TEST(DemandHistogram, CountsAndMerges) {
+    rc::DemandHistogram a, b;
+    for (const float n : {100.0f, 101.0f, 5000.0f}) a.add(n);
+    for (const float n : {100.0f, kNan, 0.0f, kInf}) b.add(n);
+    a += b;
+    EXPECT_EQ(a.total(), 5u);
+    EXPECT_EQ(a.rejected, 2u);
+    EXPECT_EQ(a.counts[26], 3u) << "(90.5, 107.6]";
+    EXPECT_EQ(a.counts[63], 1u);
+}
+
+constexpr rc::DemandHistogram filledAtCompileTime() {
+    rc::DemandHistogram h;
+    h.add(1024);
+    return h;
+}
+static_assert(filledAtCompileTime().counts[39] == 1);
+static_assert(rc::DemandHistogram::upperEdge(39) == 1024);
+
+}  // namespace
