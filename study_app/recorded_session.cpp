@@ -33,9 +33,9 @@ records::SessionSidecar sidecarFor(const SessionRequest& request) {
                                     .criterion = quest::criterion(staircase),
                                     .displayWidthPx = request.displayWidthPx,
                                     .displayHeightPx = request.displayHeightPx,
-                                    .pxPerDeg = {},
-                                    .displayGamma = {},
-                                    .luminanceCdM2 = {}};
+                                    .pxPerDeg = request.pxPerDeg,
+                                    .displayGamma = request.displayGamma,
+                                    .luminanceCdM2 = request.luminanceCdM2};
     sidecar.context.seed = request.seed;
     return sidecar;
 }

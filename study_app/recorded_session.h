@@ -29,14 +29,16 @@
 namespace study_app {
 
 struct SessionRequest {
-    std::filesystem::path dataFolder;    ///< the data set's folder, created where it is missing
-    std::string participant;             ///< letters and digits
-    std::optional<std::string> session;  ///< letters and digits
-    std::string observer = "human";      ///< or the simulated population's description
+    std::filesystem::path dataFolder;  ///< the data set's folder, created where it is missing
+    std::string participant;           ///< letters and digits
+    std::optional<std::string> session = {};  ///< letters and digits
+    std::string observer = "human";           ///< or the simulated population's description
     Design design;
     std::uint64_t seed = 0;
     int displayWidthPx = 0, displayHeightPx = 0;  ///< > 0
     records::RunContext context;
+    /// Of a calibrated display; what is not known stays out of the sidecar.
+    std::optional<double> pxPerDeg = {}, displayGamma = {}, luminanceCdM2 = {};
 };
 
 class RecordedSession {
