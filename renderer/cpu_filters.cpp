@@ -16,8 +16,8 @@ auto parameterValue(const Constants& shadow, std::string_view technique, std::st
         const auto component = static_cast<glm::length_t>(i % 4);
         if (parameters[i].name == name) return shadow.parameters[i / 4][component];
     }
-    throw std::logic_error("filters/" + std::string(technique) + ".glsl reads PARAMETER_" + std::string(name) +
-                           ", which its row in technique.cpp does not have");
+    throw std::logic_error("filters/" + std::string(technique) + ".glsl reads PARAMETER_" +
+                           std::string(name) + ", which its row in technique.cpp does not have");
 }
 
 template <class Function>
@@ -26,7 +26,8 @@ struct GeneratedFilter {
     Function function;
 };
 using FloatFilter = GeneratedFilter<float (*)(MapView, f32::ShadowReceiver, f32::ShadowConstants)>;
-using DoubleFilter = GeneratedFilter<double (*)(MapView, f64::ShadowReceiver, f64::ShadowConstants)>;
+using DoubleFilter =
+    GeneratedFilter<double (*)(MapView, f64::ShadowReceiver, f64::ShadowConstants)>;
 
 }  // namespace
 
@@ -44,12 +45,14 @@ const CpuFilter& cpuFilter(const Technique& technique) {
     static const auto filters = [] {
         std::array<CpuFilter, std::size(f32::kGeneratedRows)> rows;
         for (std::size_t i = 0; i < rows.size(); ++i)
-            rows[i] = {f32::kGeneratedRows[i].name, f32::kGeneratedRows[i].function, f64::kGeneratedRows[i].function};
+            rows[i] = {f32::kGeneratedRows[i].name, f32::kGeneratedRows[i].function,
+                       f64::kGeneratedRows[i].function};
         return rows;
     }();
     for (const CpuFilter& filter : filters)
         if (filter.name == technique.name) return filter;
-    throw std::logic_error("technique " + std::string(technique.name) + " has no file " + technique.shaderFile());
+    throw std::logic_error("technique " + std::string(technique.name) + " has no file " +
+                           technique.shaderFile());
 }
 
 }  // namespace renderer

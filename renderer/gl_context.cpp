@@ -25,18 +25,20 @@ std::string eglErrorText() {
 /// Extension names are whole words in EGL's list.
 bool lists(const char* extensions, std::string_view name) {
     std::istringstream words(extensions == nullptr ? "" : extensions);
-    return std::find(std::istream_iterator<std::string>(words), {}, name) != std::istream_iterator<std::string>();
+    return std::find(std::istream_iterator<std::string>(words), {}, name) !=
+           std::istream_iterator<std::string>();
 }
 
-[[maybe_unused]] void printDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message,
-                                        const void*) {
+[[maybe_unused]] void printDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei,
+                                        const GLchar* message, const void*) {
     if (severity == GL_DEBUG_SEVERITY_NOTIFICATION || type == GL_DEBUG_TYPE_PERFORMANCE) return;
     std::fprintf(stderr, "GL: %s\n", message);
 }
 
 /// Software rasterisers by the name they give themselves.
 bool isSoftware(const std::string& renderer) {
-    constexpr std::array names = {"llvmpipe", "softpipe", "swrast", "SWR", "SwiftShader", "Software Rasterizer"};
+    constexpr std::array names = {"llvmpipe", "softpipe",    "swrast",
+                                  "SWR",      "SwiftShader", "Software Rasterizer"};
     return std::any_of(names.begin(), names.end(),
                        [&](const char* name) { return renderer.find(name) != std::string::npos; });
 }
@@ -50,14 +52,17 @@ struct Platform {
 std::vector<Platform> hardwareDevices(const char* clientExtensions) {
     std::vector<Platform> platforms;
     if (!lists(clientExtensions, "EGL_EXT_platform_device")) return platforms;
-    if (!lists(clientExtensions, "EGL_EXT_device_base") && !lists(clientExtensions, "EGL_EXT_device_enumeration"))
+    if (!lists(clientExtensions, "EGL_EXT_device_base") &&
+        !lists(clientExtensions, "EGL_EXT_device_enumeration"))
         return platforms;
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
-    if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) return platforms;
+    if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE)
+        return platforms;
     for (EGLint i = 0; i < count; ++i) {
         EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
-        if (lists(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software")) continue;
+        if (lists(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software"))
+            continue;
         platforms.push_back({"EGL device " + std::to_string(i), EGL_PLATFORM_DEVICE_EXT, device});
     }
     return platforms;
@@ -71,14 +76,17 @@ struct HeadlessContext::Handle {
 
     /// Makes the context and makes it current; throws with the reason alone.
     explicit Handle(const Platform& platform) {
-        // The EXT entry: libepoxy aborts the program on the core one where only the EXT entry exists.
+        // The EXT entry: libepoxy aborts the program on the core one where only the EXT entry
+        // exists.
         display = eglGetPlatformDisplayEXT(platform.platform, platform.native, nullptr);
         if (display == EGL_NO_DISPLAY) throw std::runtime_error("no display, " + eglErrorText());
         if (eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
             throw std::runtime_error("display does not initialise, " + eglErrorText());
         eglBindAPI(EGL_OPENGL_API);
-        std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                          EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+        std::vector<EGLint> attributes = {
+            EGL_CONTEXT_MAJOR_VERSION,       4,
+            EGL_CONTEXT_MINOR_VERSION,       5,
+            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
 #ifndef NDEBUG
         attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
 #endif
@@ -91,13 +99,16 @@ struct HeadlessContext::Handle {
         }
         makeCurrent();
     }
-    ~Handle() { release(); }
+    ~Handle() {
+        release();
+    }
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
 
     void makeCurrent() const {
         if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) != EGL_TRUE)
-            throw std::runtime_error("context cannot be made current without a surface, " + eglErrorText());
+            throw std::runtime_error("context cannot be made current without a surface, " +
+                                     eglErrorText());
     }
 
   private:
@@ -118,7 +129,9 @@ GlInfo prepareCurrentContext(std::string platform) {
         const GLubyte* value = glGetString(name);
         return std::string(value == nullptr ? "" : reinterpret_cast<const char*>(value));
     };
-    GlInfo info{.renderer = text(GL_RENDERER), .version = text(GL_VERSION), .platform = std::move(platform)};
+    GlInfo info{.renderer = text(GL_RENDERER),
+                .version = text(GL_VERSION),
+                .platform = std::move(platform)};
     info.softwareRasteriser = isSoftware(info.renderer);
     GLint texture = 0;
     GLint viewport[2] = {};
@@ -138,7 +151,9 @@ GlInfo prepareCurrentContext(std::string platform) {
 
 HeadlessContext::HeadlessContext() {
     if (!epoxy_has_egl())
-        throw std::runtime_error("headless rendering: EGL is not installed (libEGL.so.1; Debian: libegl1, libegl-mesa0)");
+        throw std::runtime_error(
+            "headless rendering: EGL is not installed (libEGL.so.1; Debian: libegl1, "
+            "libegl-mesa0)");
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!lists(extensions, "EGL_EXT_platform_base"))
         throw std::runtime_error("headless rendering: this EGL has no EGL_EXT_platform_base");
@@ -168,9 +183,10 @@ HeadlessContext::HeadlessContext() {
         if (handle_) handle_->makeCurrent();
     }
     if (!handle_)
-        throw std::runtime_error("headless rendering: no OpenGL 4.5 core context could be made (" +
-                                 (failures.empty() ? "EGL lists no surfaceless platform and no device" : failures) +
-                                 ")");
+        throw std::runtime_error(
+            "headless rendering: no OpenGL 4.5 core context could be made (" +
+            (failures.empty() ? "EGL lists no surfaceless platform and no device" : failures) +
+            ")");
 }
 
 HeadlessContext::~HeadlessContext() = default;

@@ -27,10 +27,10 @@ Texture makeTexture(GLenum internalFormat, int width, int height, std::string_vi
     forgetEarlierErrors();
     glTextureStorage2D(name, 1, internalFormat, width, height);
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-        throw std::runtime_error("texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
-                                 std::to_string(height) + " texels: the driver refuses it (GL error " +
-                                 std::to_string(error) +
-                                 (error == GL_OUT_OF_MEMORY ? ", out of memory)" : ")"));
+        throw std::runtime_error(
+            "texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
+            std::to_string(height) + " texels: the driver refuses it (GL error " +
+            std::to_string(error) + (error == GL_OUT_OF_MEMORY ? ", out of memory)" : ")"));
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -39,7 +39,8 @@ Texture makeTexture(GLenum internalFormat, int width, int height, std::string_vi
     return texture;
 }
 
-Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth, std::string_view label) {
+Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,
+                            std::string_view label) {
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
     Framebuffer framebuffer(name);
@@ -54,11 +55,13 @@ Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,
         glNamedFramebufferDrawBuffer(name, GL_NONE);
         glNamedFramebufferReadBuffer(name, GL_NONE);
     } else {
-        glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(drawBuffers.size()), drawBuffers.data());
+        glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(drawBuffers.size()),
+                                      drawBuffers.data());
     }
     const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error("framebuffer \"" + std::string(label) + "\": the driver calls it incomplete (status " +
+        throw std::runtime_error("framebuffer \"" + std::string(label) +
+                                 "\": the driver calls it incomplete (status " +
                                  std::to_string(status) + ")");
     setLabel(GL_FRAMEBUFFER, name, label);
     return framebuffer;
@@ -71,8 +74,9 @@ Buffer makeBuffer(const void* data, GLsizeiptr bytes, GLbitfield flags, std::str
     forgetEarlierErrors();
     glNamedBufferStorage(name, bytes, data, flags);
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-        throw std::runtime_error("buffer \"" + std::string(label) + "\" of " + std::to_string(bytes) +
-                                 " bytes: the driver refuses it (GL error " + std::to_string(error) + ")");
+        throw std::runtime_error(
+            "buffer \"" + std::string(label) + "\" of " + std::to_string(bytes) +
+            " bytes: the driver refuses it (GL error " + std::to_string(error) + ")");
     setLabel(GL_BUFFER, name, label);
     return buffer;
 }

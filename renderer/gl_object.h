@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ownership of GL objects: a handle that deletes what it names. Needs a current context when it is destroyed.
+// Ownership of GL objects: a handle that deletes what it names. Needs a current context when it is
+// destroyed.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -64,12 +65,14 @@ using Shader = GlHandle<DeleteShader>;
 using Program = GlHandle<DeleteProgram>;
 using Query = GlHandle<DeleteQuery>;
 
-/// A two-dimensional texture with one mip level, nearest filtering, clamped to its edge. `label` shows in GL
-/// debuggers. Throws std::runtime_error where the driver has no room for it.
+/// A two-dimensional texture with one mip level, nearest filtering, clamped to its edge. `label`
+/// shows in GL debuggers. Throws std::runtime_error where the driver has no room for it.
 Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label);
 
-/// Colour attachments in order; `depth` may be 0. Throws std::runtime_error when GL calls it incomplete.
-Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth, std::string_view label);
+/// Colour attachments in order; `depth` may be 0. Throws std::runtime_error when GL calls it
+/// incomplete.
+Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,
+                            std::string_view label);
 
 Buffer makeBuffer(const void* data, GLsizeiptr bytes, GLbitfield flags, std::string_view label);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is read back from the GPU: plain rows of values, first row at the top of the screen (v = 0 for maps).
+// What is read back from the GPU: plain rows of values, first row at the top of the screen (v = 0
+// for maps).
 #pragma once
 
 #include <cstddef>
@@ -17,11 +18,15 @@ struct Image {
 
     Image() = default;
     Image(int w, int h, int c = 1)
-        : width(w), height(h), channels(c),
-          values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c)) {}
+        : width(w),
+          height(h),
+          channels(c),
+          values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) *
+                 static_cast<std::size_t>(c)) {}
 
     std::size_t index(int x, int y, int channel = 0) const {
-        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(x)) *
                    static_cast<std::size_t>(channels) +
                static_cast<std::size_t>(channel);
     }

@@ -85,8 +85,10 @@ Mesh sphere(glm::vec3 centre, float radius, int slices, int stacks) {
     const auto row = static_cast<std::uint32_t>(slices) + 1;
     for (int stack = 0; stack <= stacks; ++stack)
         for (int slice = 0; slice <= slices; ++slice) {
-            const float polar = glm::pi<float>() * static_cast<float>(stack) / static_cast<float>(stacks);
-            const float angle = glm::two_pi<float>() * static_cast<float>(slice) / static_cast<float>(slices);
+            const float polar =
+                glm::pi<float>() * static_cast<float>(stack) / static_cast<float>(stacks);
+            const float angle =
+                glm::two_pi<float>() * static_cast<float>(slice) / static_cast<float>(slices);
             const glm::vec3 normal = onCircle(std::sin(polar), angle, std::cos(polar));
             mesh.vertices.push_back({centre + radius * normal, normal});
         }
@@ -102,7 +104,8 @@ Mesh cylinder(glm::vec3 bottomCentre, float radius, float height, int slices) {
     Mesh mesh;
     std::vector<float> angles;
     for (int slice = 0; slice <= slices; ++slice) {
-        const float angle = glm::two_pi<float>() * static_cast<float>(slice) / static_cast<float>(slices);
+        const float angle =
+            glm::two_pi<float>() * static_cast<float>(slice) / static_cast<float>(slices);
         angles.push_back(angle);
         const glm::vec3 normal = onCircle(1, angle, 0);
         mesh.vertices.push_back({bottomCentre + onCircle(radius, angle, 0), normal});
@@ -128,7 +131,8 @@ Mesh flatRing(const std::function<float(float)>& outer, const std::function<floa
         mesh.vertices.push_back({onCircle(inner(angle), angle, 0), {0, 1, 0}});
         mesh.vertices.push_back({onCircle(outer(angle), angle, 0), {0, 1, 0}});
     }
-    for (std::uint32_t i = 0; i + 1 < angles.size(); ++i) addCell(mesh, 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1);
+    for (std::uint32_t i = 0; i + 1 < angles.size(); ++i)
+        addCell(mesh, 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1);
     return mesh;
 }
 

@@ -30,16 +30,16 @@ Bounds boundsOf(const Mesh& mesh);
 /// Moves and turns a mesh; the matrix must not shear or scale unevenly (normals go along with it).
 Mesh transformed(Mesh mesh, const glm::mat4& matrix);
 
-/// A square of side 2 * halfExtent in the plane y = height, in cells * cells quads (a single huge quad would lose
-/// bits in the rasteriser's interpolation).
+/// A square of side 2 * halfExtent in the plane y = height, in cells * cells quads (a single huge
+/// quad would lose bits in the rasteriser's interpolation).
 Mesh groundPlane(float halfExtent, int cells, float height = 0);
 Mesh box(glm::vec3 low, glm::vec3 high);
 Mesh sphere(glm::vec3 centre, float radius, int slices = 96, int stacks = 48);
 /// Around the vertical axis, closed by discs.
 Mesh cylinder(glm::vec3 bottomCentre, float radius, float height, int slices = 64);
 
-/// The flat ring between two outlines in the plane y = 0, both star-shaped about the origin and given as radius over
-/// angle. An inner outline of radius 0 gives a full plate.
+/// The flat ring between two outlines in the plane y = 0, both star-shaped about the origin and
+/// given as radius over angle. An inner outline of radius 0 gives a full plate.
 Mesh flatRing(const std::function<float(float)>& outer, const std::function<float(float)>& inner,
               const std::vector<float>& angles);
 

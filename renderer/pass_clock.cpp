@@ -51,7 +51,9 @@ void PassClock::end(Pass pass) {
         return;
     }
     glFinish();
-    times_[at(pass)] = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    times_[at(pass)] =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
+            .count();
 }
 
 PassTimesMs PassClock::collectMs() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How long the passes of a frame take. On a GPU by timer queries. On a software rasteriser timer queries are wrong (a
-// pass of 65 ms reads as .7 ms), so there the clock finishes the queue around each pass and reads a steady clock;
-// that costs overlap, so the time of a whole frame is measured in other frames, without a PassClock.
+// How long the passes of a frame take. On a GPU by timer queries. On a software rasteriser timer
+// queries are wrong (a pass of 65 ms reads as .7 ms), so there the clock finishes the queue around
+// each pass and reads a steady clock; that costs overlap, so the time of a whole frame is measured
+// in other frames, without a PassClock.
 #pragma once
 
 #include <array>
@@ -16,11 +17,12 @@ namespace renderer {
 
 enum class Pass { depth, prepass, lookup, lit, footprint };
 inline constexpr std::size_t kPasses = 5;
-inline constexpr std::array<Pass, kPasses> kAllPasses = {Pass::depth, Pass::prepass, Pass::lookup, Pass::lit,
-                                                         Pass::footprint};
+inline constexpr std::array<Pass, kPasses> kAllPasses = {Pass::depth, Pass::prepass, Pass::lookup,
+                                                         Pass::lit, Pass::footprint};
 std::string_view toText(Pass pass);
 
-using PassTimesMs = std::array<double, kPasses>;  ///< indexed by Pass; 0 for a pass that the frame did not have
+using PassTimesMs =
+    std::array<double, kPasses>;  ///< indexed by Pass; 0 for a pass that the frame did not have
 
 class PassClock {
   public:

@@ -11,22 +11,27 @@ namespace {
 /// GL's first row is the lowest; a picture's is the highest.
 template <class T>
 void flipRows(Image<T>& image) {
-    const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+    const std::size_t row =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
     for (int y = 0; y < image.height / 2; ++y)
-        std::swap_ranges(image.values.begin() + static_cast<std::ptrdiff_t>(image.index(0, y)),
-                         image.values.begin() + static_cast<std::ptrdiff_t>(image.index(0, y) + row),
-                         image.values.begin() + static_cast<std::ptrdiff_t>(image.index(0, image.height - 1 - y)));
+        std::swap_ranges(
+            image.values.begin() + static_cast<std::ptrdiff_t>(image.index(0, y)),
+            image.values.begin() + static_cast<std::ptrdiff_t>(image.index(0, y) + row),
+            image.values.begin() +
+                static_cast<std::ptrdiff_t>(image.index(0, image.height - 1 - y)));
 }
 
 FloatImage readFloats(const Texture& texture, GLenum format, int width, int height, int channels) {
     FloatImage image(width, height, channels);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureSubImage(texture.name(), 0, 0, 0, 0, width, height, 1, format, GL_FLOAT,
-                         static_cast<GLsizei>(image.values.size() * sizeof(float)), image.values.data());
+                         static_cast<GLsizei>(image.values.size() * sizeof(float)),
+                         image.values.data());
     return image;
 }
 
-/// Order in which the pixels of a cell are taken: steps that are coprime to the cell visit every pixel of it.
+/// Order in which the pixels of a cell are taken: steps that are coprime to the cell visit every
+/// pixel of it.
 glm::ivec2 pixelOfCell(int spacing, unsigned phase) {
     const auto cell = static_cast<unsigned>(spacing * spacing);
     unsigned step = cell / 2 + 1;
@@ -44,7 +49,8 @@ glm::ivec2 pixelOfCell(int spacing, unsigned phase) {
 
 std::vector<float> Renderer::footprintsUv(int spacing, unsigned phase, PassClock* clock) {
     if (spacing < 1 || spacing > 64)
-        throw std::invalid_argument("footprint spacing is " + std::to_string(spacing) + " px, must be in [1, 64]");
+        throw std::invalid_argument("footprint spacing is " + std::to_string(spacing) +
+                                    " px, must be in [1, 64]");
     const int width = std::max(widthPx_ / spacing, 1);
     const int height = std::max(heightPx_ / spacing, 1);
     if (width != footprintWidth_ || height != footprintHeight_) {
@@ -59,7 +65,9 @@ std::vector<float> Renderer::footprintsUv(int spacing, unsigned phase, PassClock
     glViewport(0, 0, width, height);
     glBindTextureUnit(0, positions_.name());
     glBindTextureUnit(1, planes_.name());
+    glBindTextureUnit(2, visibility_.name());
     glUseProgram(footprintProgram_.name());
+    glUniform1ui(1, lastFrameSoft_ ? 1 : 0);
     glUniform3i(0, std::min(pixel.x, widthPx_ - 1), std::min(pixel.y, heightPx_ - 1), spacing);
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);

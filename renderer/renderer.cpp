@@ -29,7 +29,8 @@ class PassScope {
     PassClock* clock_;
 };
 
-[[noreturn]] void rejectSetting(const std::string& name, const std::string& value, const std::string& rule) {
+[[noreturn]] void rejectSetting(const std::string& name, const std::string& value,
+                                const std::string& rule) {
     throw std::invalid_argument("frame settings: " + name + " is " + value + ", must be " + rule);
 }
 
@@ -73,8 +74,12 @@ void throwOnGlError() {
 }  // namespace
 
 f64::ViewConstants toDouble(const f32::ViewConstants& c) {
-    return {glm::dmat4(c.clipFromEyeRelative), glm::dvec4(c.eye), glm::dvec4(c.pixelRight), glm::dvec4(c.pixelUp),
-            glm::dvec4(c.forward), glm::dvec4(c.viewport)};
+    return {glm::dmat4(c.clipFromEyeRelative),
+            glm::dvec4(c.eye),
+            glm::dvec4(c.pixelRight),
+            glm::dvec4(c.pixelUp),
+            glm::dvec4(c.forward),
+            glm::dvec4(c.viewport)};
 }
 
 f64::ShadowConstants toDouble(const f32::ShadowConstants& c) {
@@ -89,17 +94,19 @@ f64::ShadowConstants toDouble(const f32::ShadowConstants& c) {
 void FrameSettings::validate(const GlInfo& info) const {
     if (resolution < 1 || resolution > info.maxResolution)
         rejectSetting("resolution", std::to_string(resolution),
-                      "in [1, " + std::to_string(info.maxResolution) + "], what the driver allows (" + info.renderer +
-                          ")");
+                      "in [1, " + std::to_string(info.maxResolution) +
+                          "], what the driver allows (" + info.renderer + ")");
     checkUnit("radiusUv", radiusUv);
     checkUnit("minRadiusUv", minRadiusUv);
 }
 
-Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx, const ShaderLibrary& shaders)
+Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
+                   const ShaderLibrary& shaders)
     : info_(info), shaders_(shaders) {
     depthProgram_ = makeProgram(shaders_, "passes/depth.vert", "passes/depth.frag", {});
     prepassProgram_ = makeProgram(shaders_, "passes/prepass.vert", "passes/prepass.frag", {});
-    footprintProgram_ = makeProgram(shaders_, "passes/fullscreen.vert", "passes/footprint.frag", {});
+    footprintProgram_ =
+        makeProgram(shaders_, "passes/fullscreen.vert", "passes/footprint.frag", {});
     litProgram_ = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lit.frag", {});
     lookupPrograms_.resize(techniques().size());
 
@@ -133,15 +140,19 @@ void Renderer::uploadScene() {
     Mesh all;
     ranges_.clear();
     for (const SceneObject& object : scene_.objects) {
-        ranges_.push_back({object.material, static_cast<GLsizei>(object.mesh.indices.size()), all.indices.size()});
+        ranges_.push_back({object.material, static_cast<GLsizei>(object.mesh.indices.size()),
+                           all.indices.size()});
         all.append(object.mesh);
     }
-    if (all.indices.empty()) throw std::invalid_argument("scene \"" + scene_.name + "\" has no triangles");
+    if (all.indices.empty())
+        throw std::invalid_argument("scene \"" + scene_.name + "\" has no triangles");
     indexCount_ = all.indices.size();
-    vertices_ = makeBuffer(all.vertices.data(), static_cast<GLsizeiptr>(all.vertices.size() * sizeof(Vertex)), 0,
-                           "vertices");
-    indices_ = makeBuffer(all.indices.data(), static_cast<GLsizeiptr>(indexCount_ * sizeof(std::uint32_t)), 0,
-                          "indices");
+    vertices_ =
+        makeBuffer(all.vertices.data(),
+                   static_cast<GLsizeiptr>(all.vertices.size() * sizeof(Vertex)), 0, "vertices");
+    indices_ =
+        makeBuffer(all.indices.data(), static_cast<GLsizeiptr>(indexCount_ * sizeof(std::uint32_t)),
+                   0, "indices");
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
     geometry_ = VertexArray(name);
@@ -156,9 +167,11 @@ void Renderer::uploadScene() {
 
 void Renderer::resize(int widthPx, int heightPx) {
     if (widthPx == widthPx_ && heightPx == heightPx_) return;
-    if (widthPx < 1 || heightPx < 1 || widthPx > info_.maxResolution || heightPx > info_.maxResolution)
-        throw std::invalid_argument("viewport is " + std::to_string(widthPx) + " x " + std::to_string(heightPx) +
-                                    " px, each edge must be in [1, " + std::to_string(info_.maxResolution) + "]");
+    if (widthPx < 1 || heightPx < 1 || widthPx > info_.maxResolution ||
+        heightPx > info_.maxResolution)
+        throw std::invalid_argument("viewport is " + std::to_string(widthPx) + " x " +
+                                    std::to_string(heightPx) + " px, each edge must be in [1, " +
+                                    std::to_string(info_.maxResolution) + "]");
     const auto target = [&](GLenum format, std::string_view label) {
         return makeTexture(format, widthPx, heightPx, label);
     };
@@ -169,8 +182,9 @@ void Renderer::resize(int widthPx, int heightPx) {
     surfaceDepth_ = target(GL_DEPTH_COMPONENT32F, "surface depth");
     visibility_ = target(GL_R32F, "visibility");
     lit_ = target(GL_RGBA8, "lit");
-    prepassTarget_ = makeFramebuffer({positions_.name(), planes_.name(), normals_.name(), albedos_.name()},
-                                     surfaceDepth_.name(), "prepass");
+    prepassTarget_ =
+        makeFramebuffer({positions_.name(), planes_.name(), normals_.name(), albedos_.name()},
+                        surfaceDepth_.name(), "prepass");
     visibilityTarget_ = makeFramebuffer({visibility_.name()}, 0, "lookup");
     litTarget_ = makeFramebuffer({lit_.name()}, 0, "lit");
     widthPx_ = widthPx;
@@ -193,7 +207,8 @@ std::size_t Renderer::triangles() const {
 
 void Renderer::reserveMap(int edge) {
     if (edge < 0 || edge > info_.maxResolution)
-        throw std::invalid_argument("map reserve is " + std::to_string(edge) + " texels, must be in [0, " +
+        throw std::invalid_argument("map reserve is " + std::to_string(edge) +
+                                    " texels, must be in [0, " +
                                     std::to_string(info_.maxResolution) + "]");
     reservedEdge_ = edge;
 }
@@ -221,16 +236,19 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     const float verticalField = glm::radians(camera.verticalFieldDeg);
     const float pixel = 2 * std::tan(verticalField / 2) / height;
 
-    view_.clipFromEyeRelative = glm::perspectiveRH_ZO(verticalField, width / height, 0.02F * camera.distanceM, 200.0F) *
-                                glm::lookAtRH(glm::vec3(0), forward, glm::vec3(0, 1, 0));
+    view_.clipFromEyeRelative =
+        glm::perspectiveRH_ZO(verticalField, width / height, 0.02F * camera.distanceM, 200.0F) *
+        glm::lookAtRH(glm::vec3(0), forward, glm::vec3(0, 1, 0));
     view_.eye = glm::vec4(eye, 0);
     view_.pixelRight = glm::vec4(right * pixel, 0);
     view_.pixelUp = glm::vec4(up * pixel, 0);
     view_.forward = glm::vec4(forward, 0);
     view_.viewport = {width, height, 1 / width, 1 / height};
 
-    const glm::dmat4 fromEyeRelative = window_.shadowFromWorld * glm::translate(glm::dmat4(1), glm::dvec3(eye));
-    const Technique& technique = settings.technique != nullptr ? *settings.technique : techniques().front();
+    const glm::dmat4 fromEyeRelative =
+        window_.shadowFromWorld * glm::translate(glm::dmat4(1), glm::dvec3(eye));
+    const Technique& technique =
+        settings.technique != nullptr ? *settings.technique : techniques().front();
     const ParameterValues values = settings.parameters.value_or(technique.standardParameters());
     const auto resolution = static_cast<float>(settings.resolution);
     shadow_.shadowFromEyeRelative = glm::mat4(fromEyeRelative);
@@ -253,17 +271,20 @@ const Program& Renderer::lookupProgram(const Technique& technique) {
     ShaderOptions options{.defines = {{"TECHNIQUE", std::string(technique.name)}},
                           .substitutions = {{"technique", technique.shaderFile()}}};
     for (std::size_t i = 0; i < technique.parameters.size(); ++i)
-        options.defines.push_back({"PARAMETER_" + std::string(technique.parameters[i].name),
-                                   "shadow.parameters[" + std::to_string(i / 4) + "][" + std::to_string(i % 4) + "]"});
+        options.defines.push_back(
+            {"PARAMETER_" + std::string(technique.parameters[i].name),
+             "shadow.parameters[" + std::to_string(i / 4) + "][" + std::to_string(i % 4) + "]"});
     program = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lookup.frag", options);
     return program;
 }
 
 void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     settings.validate(info_);
-    const Technique& technique = settings.technique != nullptr ? *settings.technique : techniques().front();
+    const Technique& technique =
+        settings.technique != nullptr ? *settings.technique : techniques().front();
     lookupProgram(technique);
     ensureMap(settings.resolution);
+    lastFrameSoft_ = technique.soft;
     updateConstants(settings);
     {
         const PassScope scope(Pass::depth, clock);
@@ -341,7 +362,8 @@ void Renderer::drawLookup(const Technique& technique) {
 void Renderer::drawLit() {
     glBindFramebuffer(GL_FRAMEBUFFER, litTarget_.name());
     glViewport(0, 0, widthPx_, heightPx_);
-    bindTextures({positions_.name(), planes_.name(), normals_.name(), albedos_.name(), visibility_.name()});
+    bindTextures(
+        {positions_.name(), planes_.name(), normals_.name(), albedos_.name(), visibility_.name()});
     glUseProgram(litProgram_.name());
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A frame: prepass (visible surfaces), depth pass (the light's map at N x N), lookup pass (visibility of every pixel,
-// into its own target), lit pass. It renders whatever N, radius and technique it is given and knows nothing of how
-// they were chosen; footprintsUv() is what a chooser needs to know of the frame.
+// A frame: prepass (visible surfaces), depth pass (the light's map at N x N), lookup pass
+// (visibility of every pixel, into its own target), lit pass. It renders whatever N, radius and
+// technique it is given and knows nothing of how they were chosen; footprintsUv() is what a chooser
+// needs to know of the frame.
 //
 //   renderer::HeadlessContext context;
 //   renderer::Renderer renderer(context.info(), renderer::makeScene("yard"), 1280, 720);
-//   renderer.render({.technique = &renderer::findTechnique("pcf_disc"), .resolution = 1024, .radiusUv = .004F});
-//   const renderer::ByteImage picture = renderer.readLit();
+//   renderer.render({.technique = &renderer::findTechnique("pcf_disc"), .resolution = 1024,
+//   .radiusUv = .004F}); const renderer::ByteImage picture = renderer.readLit();
 #pragma once
 
 #include <optional>
@@ -24,12 +25,12 @@
 namespace renderer {
 
 struct FrameSettings {
-    const Technique* technique = nullptr;       ///< null: the table's first
-    std::optional<ParameterValues> parameters;  ///< absent: the technique's defaults
-    int resolution = 1024;                      ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
-    float radiusUv = 0;                         ///< kernel radius as a fraction of the map's extent, 0 .. 1
-    float minRadiusUv = 0;                      ///< least radius where a texel is larger than a pixel, 0 .. 1
-    bool lit = true;                            ///< false leaves the lit pass out
+    const Technique* technique = nullptr;            ///< null: the table's first
+    std::optional<ParameterValues> parameters = {};  ///< absent: the technique's defaults
+    int resolution = 1024;  ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
+    float radiusUv = 0;     ///< kernel radius as a fraction of the map's extent, 0 .. 1
+    float minRadiusUv = 0;  ///< least radius where a texel is larger than a pixel, 0 .. 1
+    bool lit = true;        ///< false leaves the lit pass out
 
     /// Throws std::invalid_argument that names the field, its value and its range.
     void validate(const GlInfo& info) const;
@@ -45,8 +46,9 @@ class Renderer {
     void resize(int widthPx, int heightPx);
     void setCamera(const OrbitCamera& camera);
     void setSun(const Sun& sun);
-    /// From now on the map's texture has at least this edge, and a smaller N takes a sub-rectangle of it; 0 (the
-    /// default) makes the texture anew whenever N changes, exactly as large as the map.
+    /// From now on the map's texture has at least this edge, and a smaller N takes a sub-rectangle
+    /// of it; 0 (the default) makes the texture anew whenever N changes, exactly as large as the
+    /// map.
     void reserveMap(int edge);
 
     const Scene& scene() const { return scene_; }
@@ -54,28 +56,31 @@ class Renderer {
     int widthPx() const { return widthPx_; }
     int heightPx() const { return heightPx_; }
 
-    /// Draws a frame. With a clock its passes are timed. Throws std::invalid_argument for settings out of range and
-    /// std::runtime_error where the driver has no room for the map or reports an error.
+    /// Draws a frame. With a clock its passes are timed. Throws std::invalid_argument for settings
+    /// out of range and std::runtime_error where the driver has no room for the map or reports an
+    /// error.
     void render(const FrameSettings& settings, PassClock* clock = nullptr);
 
-    /// For one pixel in spacing x spacing of the last frame's prepass: the edge of one screen pixel on the map, as a
-    /// fraction of its extent; 0 where the map cannot matter (sky, turned from the light, outside the map). Which
-    /// pixel of each cell is taken rotates with `phase`. Waits for the GPU.
+    /// For one pixel in spacing x spacing of the last frame: the edge of one screen pixel on the
+    /// map, as a fraction of its extent; 0 where no stair-step of the map can show. After a
+    /// technique without a kernel, that is sky, surfaces turned from the light and points outside
+    /// the map; after one with a kernel, everything that is not in penumbra. Which pixel of each
+    /// cell is taken rotates with `phase`. Waits for the GPU.
     std::vector<float> footprintsUv(int spacing, unsigned phase, PassClock* clock = nullptr);
 
-    ByteImage readLit();             ///< sRGB codes, 3 channels
-    FloatImage readVisibility();     ///< 1 lit
-    FloatImage readShadowMap();      ///< N x N linear depth
-    FloatImage readPositions();      ///< 4 channels: relative to the eye; w 0 is sky
-    FloatImage readPlanes();         ///< 4 channels: unit normal of the triangle
+    ByteImage readLit();          ///< sRGB codes, 3 channels
+    FloatImage readVisibility();  ///< 1 lit
+    FloatImage readShadowMap();   ///< N x N linear depth
+    FloatImage readPositions();   ///< 4 channels: relative to the eye; w 0 is sky
+    FloatImage readPlanes();      ///< 4 channels: unit normal of the triangle
     unsigned litFramebuffer() const { return litTarget_.name(); }
 
     /// As the last frame had them: the CPU evaluates the same pixels with these.
     const f32::ViewConstants& viewConstants() const { return view_; }
     const f32::ShadowConstants& shadowConstants() const { return shadow_; }
 
-    std::size_t mapBytes() const;        ///< of the last frame's map
-    std::size_t targetBytes() const;     ///< of everything that has the viewport's size
+    std::size_t mapBytes() const;     ///< of the last frame's map
+    std::size_t targetBytes() const;  ///< of everything that has the viewport's size
     std::size_t triangles() const;
 
   private:
@@ -109,9 +114,11 @@ class Renderer {
     Buffer viewBlock_, shadowBlock_, lookBlock_;
     f32::ViewConstants view_{};
     f32::ShadowConstants shadow_{};
+    bool lastFrameSoft_ = false;
 
     Program depthProgram_, prepassProgram_, footprintProgram_, litProgram_;
-    std::vector<Program> lookupPrograms_;  // one per row of the technique table, made when first used
+    std::vector<Program>
+        lookupPrograms_;  // one per row of the technique table, made when first used
 
     int reservedEdge_ = 0;
     int mapEdge_ = 0;

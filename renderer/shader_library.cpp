@@ -18,18 +18,22 @@ constexpr std::string_view kFolder = "renderer/shaders/";
 std::string preamble(const ShaderOptions& options) {
     std::ostringstream text;
     text << "#version 450 core\n"
-            "#define real float\n#define real2 vec2\n#define real3 vec3\n#define real4 vec4\n#define real4x4 mat4\n"
+            "#define real float\n#define real2 vec2\n#define real3 vec3\n#define real4 "
+            "vec4\n#define real4x4 mat4\n"
             "#define int2 ivec2\n#define SHARED_FUNCTION\n"
          << "#define BINDING_VIEW " << kViewBinding << "\n#define BINDING_SHADOW " << kShadowBinding
-         << "\n#define BINDING_LOOK " << kLookBinding << "\n#define PATTERN_TILES " << unsigned(Pattern::tiles)
-         << "\n#define PATTERN_BANDS " << unsigned(Pattern::bands) << "\n";
-    for (const ShaderDefine& define : options.defines) text << "#define " << define.name << " " << define.value << "\n";
+         << "\n#define BINDING_LOOK " << kLookBinding << "\n#define PATTERN_TILES "
+         << unsigned(Pattern::tiles) << "\n#define PATTERN_BANDS " << unsigned(Pattern::bands)
+         << "\n";
+    for (const ShaderDefine& define : options.defines)
+        text << "#define " << define.name << " " << define.value << "\n";
     return text.str();
 }
 
 class Expander {
   public:
-    Expander(const ShaderLibrary& library, const ShaderOptions& options) : library_(library), options_(options) {}
+    Expander(const ShaderLibrary& library, const ShaderOptions& options)
+        : library_(library), options_(options) {}
 
     void expand(const std::string& path, const std::string& includedFrom, ExpandedShader& out) {
         if (std::find(open_.begin(), open_.end(), path) != open_.end())
@@ -51,7 +55,8 @@ class Expander {
             }
             const std::string here = std::string(kFolder) + path + ":" + std::to_string(lineNumber);
             expand(resolve(match[1].str(), here), here, out);
-            out.text += "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
+            out.text +=
+                "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
         }
         open_.pop_back();
     }
@@ -61,7 +66,8 @@ class Expander {
         static const std::regex quotes(R"del("([^"]+)"\s*)del");
         std::smatch match;
         if (!std::regex_match(quoted, match, quotes))
-            throw std::runtime_error(here + ": #include needs a name in double quotes, found: " + quoted);
+            throw std::runtime_error(here +
+                                     ": #include needs a name in double quotes, found: " + quoted);
         const auto substitution = options_.substitutions.find(match[1].str());
         return substitution == options_.substitutions.end() ? match[1].str() : substitution->second;
     }
@@ -73,11 +79,13 @@ class Expander {
 
 std::string definesInForce(const ShaderOptions& options) {
     std::string text;
-    for (const ShaderDefine& define : options.defines) text += " " + define.name + "=" + define.value;
+    for (const ShaderDefine& define : options.defines)
+        text += " " + define.name + "=" + define.value;
     return text.empty() ? "" : "\ndefines:" + text;
 }
 
-Shader compile(GLenum stage, const ShaderLibrary& library, const std::string& path, const ShaderOptions& options) {
+Shader compile(GLenum stage, const ShaderLibrary& library, const std::string& path,
+               const ShaderOptions& options) {
     const ExpandedShader expanded = expandShader(library, path, options);
     Shader shader(glCreateShader(stage));
     const char* text = expanded.text.c_str();
@@ -111,25 +119,31 @@ ShaderLibrary ShaderLibrary::fromFolder(const std::filesystem::path& folder) {
     Files files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         const std::string extension = entry.path().extension().string();
-        if (extension != ".glsl" && extension != ".vert" && extension != ".frag" && extension != ".comp") continue;
+        if (extension != ".glsl" && extension != ".vert" && extension != ".frag" &&
+            extension != ".comp")
+            continue;
         std::ifstream file(entry.path(), std::ios::binary);
         std::ostringstream text;
         text << file.rdbuf();
-        if (!file) throw std::runtime_error("shader file " + entry.path().string() + " cannot be read");
+        if (!file)
+            throw std::runtime_error("shader file " + entry.path().string() + " cannot be read");
         files[std::filesystem::relative(entry.path(), folder).generic_string()] = text.str();
     }
     return ShaderLibrary(std::move(files));
 }
 
-const std::string& ShaderLibrary::text(std::string_view path, const std::string& includedFrom) const {
+const std::string& ShaderLibrary::text(std::string_view path,
+                                       const std::string& includedFrom) const {
     const auto found = files_.find(path);
     if (found == files_.end())
-        throw std::runtime_error((includedFrom.empty() ? "" : includedFrom + ": ") + "shader file " +
-                                 std::string(kFolder) + std::string(path) + " does not exist");
+        throw std::runtime_error((includedFrom.empty() ? "" : includedFrom + ": ") +
+                                 "shader file " + std::string(kFolder) + std::string(path) +
+                                 " does not exist");
     return found->second;
 }
 
-ExpandedShader expandShader(const ShaderLibrary& library, const std::string& path, const ShaderOptions& options) {
+ExpandedShader expandShader(const ShaderLibrary& library, const std::string& path,
+                            const ShaderOptions& options) {
     ExpandedShader expanded{.text = preamble(options), .files = {}};
     Expander(library, options).expand(path, "", expanded);
     return expanded;
@@ -137,7 +151,8 @@ ExpandedShader expandShader(const ShaderLibrary& library, const std::string& pat
 
 std::string locatedLog(const std::string& log, const std::vector<std::string>& files) {
     // Mesa "1:12(5): error:", NVIDIA "1(12) : error", others "ERROR: 1:12:".
-    static const std::regex place(R"(^(ERROR: |WARNING: )?(\d+)(?::(\d+)\(\d+\)|\((\d+)\)|:(\d+)):?\s*:?\s*)");
+    static const std::regex place(
+        R"(^(ERROR: |WARNING: )?(\d+)(?::(\d+)\(\d+\)|\((\d+)\)|:(\d+)):?\s*:?\s*)");
     std::istringstream lines(log);
     std::string line;
     std::string located;
@@ -147,7 +162,8 @@ std::string locatedLog(const std::string& log, const std::vector<std::string>& f
             const std::size_t number = std::stoul(match[2].str());
             const std::string lineNumber = match[3].str() + match[4].str() + match[5].str();
             if (number < files.size())
-                line = files[number] + ":" + lineNumber + ": " + match[1].str() + match.suffix().str();
+                line =
+                    files[number] + ":" + lineNumber + ": " + match[1].str() + match.suffix().str();
         }
         located += line + "\n";
     }
@@ -155,8 +171,8 @@ std::string locatedLog(const std::string& log, const std::vector<std::string>& f
     return located;
 }
 
-Program makeProgram(const ShaderLibrary& library, const std::string& vertexPath, const std::string& fragmentPath,
-                    const ShaderOptions& options) {
+Program makeProgram(const ShaderLibrary& library, const std::string& vertexPath,
+                    const std::string& fragmentPath, const ShaderOptions& options) {
     const Shader vertex = compile(GL_VERTEX_SHADER, library, vertexPath, options);
     const Shader fragment = compile(GL_FRAGMENT_SHADER, library, fragmentPath, options);
     Program program(glCreateProgram());
@@ -168,8 +184,8 @@ Program makeProgram(const ShaderLibrary& library, const std::string& vertexPath,
     if (linked != GL_TRUE) {
         std::array<GLchar, 4096> log{};
         glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-        throw std::runtime_error("shaders " + vertexPath + " and " + fragmentPath + " do not link:\n" + log.data() +
-                                 definesInForce(options));
+        throw std::runtime_error("shaders " + vertexPath + " and " + fragmentPath +
+                                 " do not link:\n" + log.data() + definesInForce(options));
     }
     glObjectLabel(GL_PROGRAM, program.name(), -1, fragmentPath.c_str());
     return program;

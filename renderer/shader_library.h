@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Shader files and their compilation. A shader may write `#include "path"`, the path counted from renderer/shaders;
-// a name in `Substitutions` stands for a file (the lookup pass includes "technique"). What the driver reports is
-// rewritten to our file and line through includes, with the defines that were in force.
+// Shader files and their compilation. A shader may write `#include "path"`, the path counted from
+// renderer/shaders; a name in `Substitutions` stands for a file (the lookup pass includes
+// "technique"). What the driver reports is rewritten to our file and line through includes, with
+// the defines that were in force.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +17,13 @@ namespace renderer {
 
 class ShaderLibrary {
   public:
-    using Files = std::map<std::string, std::string, std::less<>>;  ///< path below renderer/shaders -> text
+    using Files =
+        std::map<std::string, std::string, std::less<>>;  ///< path below renderer/shaders -> text
 
     /// The shaders that were built into the program.
     static const ShaderLibrary& embedded();
-    /// Every .vert, .frag, .comp and .glsl file below a folder. Throws std::runtime_error where it cannot be read.
+    /// Every .vert, .frag, .comp and .glsl file below a folder. Throws std::runtime_error where it
+    /// cannot be read.
     static ShaderLibrary fromFolder(const std::filesystem::path& folder);
 
     explicit ShaderLibrary(Files files) : files_(std::move(files)) {}
@@ -47,15 +50,19 @@ struct ExpandedShader {
     std::string text;
     std::vector<std::string> files;
 };
-/// Throws std::runtime_error with file and line: a missing file, an include that includes itself, a bad #include.
-ExpandedShader expandShader(const ShaderLibrary& library, const std::string& path, const ShaderOptions& options);
+/// Throws std::runtime_error with file and line: a missing file, an include that includes itself, a
+/// bad #include.
+ExpandedShader expandShader(const ShaderLibrary& library, const std::string& path,
+                            const ShaderOptions& options);
 
-/// Replaces the driver's source numbers ("0:12(5): error", "0(12) : error", "ERROR: 0:12:") by our files' names.
+/// Replaces the driver's source numbers ("0:12(5): error", "0(12) : error", "ERROR: 0:12:") by our
+/// files' names.
 std::string locatedLog(const std::string& log, const std::vector<std::string>& files);
 
-/// Compiles and links a program. Throws std::runtime_error with the located log; warnings are errors too.
-Program makeProgram(const ShaderLibrary& library, const std::string& vertexPath, const std::string& fragmentPath,
-                    const ShaderOptions& options);
+/// Compiles and links a program. Throws std::runtime_error with the located log; warnings are
+/// errors too.
+Program makeProgram(const ShaderLibrary& library, const std::string& vertexPath,
+                    const std::string& fragmentPath, const ShaderOptions& options);
 
 /// In generated code: the files that the build found.
 const ShaderLibrary::Files& embeddedShaderFiles();

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The shaders' mathematics, compiled as C++: the files below renderer/shaders/shared and renderer/shaders/filters
-// exist once, in a subset of GLSL that is also C++, with a type `real` that is float on the GPU and float or double
-// here. So every hard case can be tested on the CPU, and the GPU's image is held against the CPU on the same map.
+// The shaders' mathematics, compiled as C++: the files below renderer/shaders/shared and
+// renderer/shaders/filters exist once, in a subset of GLSL that is also C++, with a type `real`
+// that is float on the GPU and float or double here. So every hard case can be tested on the CPU,
+// and the GPU's image is held against the CPU on the same map.
 //
-//   namespace renderer::f32, renderer::f64: ViewConstants, ShadowConstants, ShadowReceiver, shadowReceiver(),
-//   discCoverage4(), ... with the meaning given in the .glsl files.
+//   namespace renderer::f32, renderer::f64: ViewConstants, ShadowConstants, ShadowReceiver,
+//   shadowReceiver(), discCoverage4(), ... with the meaning given in the .glsl files.
 //
-// A file of this subset may use: real, real2..4, real4x4, int2; SHARED_FUNCTION before each function; real(x) around
-// every literal that meets a real; sampler2D with texelFetch and textureGather; the GLSL functions named below. It
-// may not use swizzles of more than one component, out parameters, #include.
+// A file of this subset may use: real, real2..4, real4x4, int2; SHARED_FUNCTION before each
+// function; real(x) around every literal that meets a real; sampler2D with texelFetch and
+// textureGather; the GLSL functions named below. It may not use swizzles of more than one
+// component, out parameters, #include.
 #pragma once
 
 #include <array>
@@ -20,10 +22,12 @@ namespace renderer {
 /// A square map of one float per texel, row 0 at v = 0, as a sampler. Does not own the texels.
 struct MapView {
     const float* texels = nullptr;
-    int edge = 0;        ///< texels from one row to the next, and the edge that texture coordinates refer to
+    int edge =
+        0;  ///< texels from one row to the next, and the edge that texture coordinates refer to
 
     float at(int column, int row) const {
-        return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(edge) + static_cast<std::size_t>(column)];
+        return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(edge) +
+                      static_cast<std::size_t>(column)];
     }
 };
 
@@ -32,11 +36,13 @@ inline glm::vec4 texelFetch(const MapView& map, const glm::ivec2& texel, int) {
     return glm::vec4(map.at(texel.x, texel.y));
 }
 
-/// The 2 x 2 texels around a coordinate in GLSL's order (0,1) (1,1) (1,0) (0,0), clamped to the edge.
+/// The 2 x 2 texels around a coordinate in GLSL's order (0,1) (1,1) (1,0) (0,0), clamped to the
+/// edge.
 template <class Real>
 glm::vec4 textureGather(const MapView& map, const glm::vec<2, Real>& coordinate) {
     const auto lower = [&](Real c) {
-        return static_cast<int>(std::floor(c * static_cast<Real>(map.edge) - static_cast<Real>(0.5)));
+        return static_cast<int>(
+            std::floor(c * static_cast<Real>(map.edge) - static_cast<Real>(0.5)));
     };
     const auto inside = [&](int i) { return i < 0 ? 0 : (i >= map.edge ? map.edge - 1 : i); };
     const int x0 = inside(lower(coordinate.x)), x1 = inside(lower(coordinate.x) + 1);
@@ -46,31 +52,32 @@ glm::vec4 textureGather(const MapView& map, const glm::vec<2, Real>& coordinate)
 
 #define SHARED_FUNCTION inline
 
-#define STAIRWELL_SHADER_LANGUAGE(scalar)                                                                        \
-    using real = scalar;                                                                                         \
-    using real2 = glm::vec<2, real>;                                                                             \
-    using real3 = glm::vec<3, real>;                                                                             \
-    using real4 = glm::vec<4, real>;                                                                             \
-    using real4x4 = glm::mat<4, 4, real>;                                                                        \
-    using int2 = glm::ivec2;                                                                                     \
-    using sampler2D = MapView;                                                                                   \
-    using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, glm::length, glm::lessThan; \
+#define STAIRWELL_SHADER_LANGUAGE(scalar)                                              \
+    using real = scalar;                                                               \
+    using real2 = glm::vec<2, real>;                                                   \
+    using real3 = glm::vec<3, real>;                                                   \
+    using real4 = glm::vec<4, real>;                                                   \
+    using real4x4 = glm::mat<4, 4, real>;                                              \
+    using int2 = glm::ivec2;                                                           \
+    using sampler2D = MapView;                                                         \
+    using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, \
+        glm::length, glm::lessThan;                                                    \
     using glm::log, glm::max, glm::min, glm::mix, glm::normalize, glm::sqrt;
 
 namespace f32 {
 STAIRWELL_SHADER_LANGUAGE(float)
 #include "renderer/shaders/shared/constants.glsl"
-#include "renderer/shaders/shared/receiver.glsl"
 #include "renderer/shaders/shared/depth_compare.glsl"
 #include "renderer/shaders/shared/disc_kernel.glsl"
+#include "renderer/shaders/shared/receiver.glsl"
 }  // namespace f32
 
 namespace f64 {
 STAIRWELL_SHADER_LANGUAGE(double)
 #include "renderer/shaders/shared/constants.glsl"
-#include "renderer/shaders/shared/receiver.glsl"
 #include "renderer/shaders/shared/depth_compare.glsl"
 #include "renderer/shaders/shared/disc_kernel.glsl"
+#include "renderer/shaders/shared/receiver.glsl"
 }  // namespace f64
 
 #undef STAIRWELL_SHADER_LANGUAGE

@@ -12,13 +12,15 @@ namespace {
 
 // Air around the casters, so that none touches the map's edge.
 constexpr double kMargin = 1.02;
-// A low sun sees the ground at the far edge of its window from very far; depth precision is worth more.
+// A low sun sees the ground at the far edge of its window from very far; depth precision is worth
+// more.
 constexpr double kMostDepthPerExtent = 4;
 
 std::array<glm::dvec3, 8> corners(const Bounds& bounds) {
     std::array<glm::dvec3, 8> all;
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = {(i & 1) != 0 ? bounds.high.x : bounds.low.x, (i & 2) != 0 ? bounds.high.y : bounds.low.y,
+        all[i] = {(i & 1) != 0 ? bounds.high.x : bounds.low.x,
+                  (i & 2) != 0 ? bounds.high.y : bounds.low.y,
                   (i & 4) != 0 ? bounds.high.z : bounds.low.z};
     return all;
 }
@@ -28,10 +30,12 @@ std::array<glm::dvec3, 8> corners(const Bounds& bounds) {
 ShadowWindow fitShadowWindow(const Bounds& casters, const Sun& sun) {
     const glm::dvec3 span = glm::dvec3(casters.high) - glm::dvec3(casters.low);
     if (!(glm::length(span) > 0) || !std::isfinite(glm::length(span)))
-        throw std::invalid_argument("shadow window: the casters' bounds span " + std::to_string(glm::length(span)) +
+        throw std::invalid_argument("shadow window: the casters' bounds span " +
+                                    std::to_string(glm::length(span)) +
                                     " m, must be finite and > 0");
     if (!(sun.elevationDeg > 0 && sun.elevationDeg <= 90) || !std::isfinite(sun.azimuthDeg))
-        throw std::invalid_argument("shadow window: the sun stands " + std::to_string(sun.elevationDeg) +
+        throw std::invalid_argument("shadow window: the sun stands " +
+                                    std::to_string(sun.elevationDeg) +
                                     " degrees over the horizon, must be in (0, 90]");
 
     const glm::dvec3 light = glm::normalize(glm::dvec3(sun.towards()));
@@ -49,13 +53,16 @@ ShadowWindow fitShadowWindow(const Bounds& casters, const Sun& sun) {
     const double extent = kMargin * std::max(high.x - low.x, high.y - low.y);
     const glm::dvec2 centre = 0.5 * glm::dvec2(low.x + high.x, low.y + high.y);
 
-    // A point with coordinates (x, y, z) along (right, up, -light) has the height up.y y - light.y z. So the ground
-    // under the square is farthest from the light along the edge where up.y y is largest.
-    const double highest = std::max(up.y * (centre.y - 0.5 * extent), up.y * (centre.y + 0.5 * extent));
+    // A point with coordinates (x, y, z) along (right, up, -light) has the height up.y y - light.y
+    // z. So the ground under the square is farthest from the light along the edge where up.y y is
+    // largest.
+    const double highest =
+        std::max(up.y * (centre.y - 0.5 * extent), up.y * (centre.y + 0.5 * extent));
     const double groundDepth = (highest - casters.low.y) / light.y;
     const double nearest = low.z - 0.01 * extent;
     const double farthest =
-        std::max(high.z, std::min(groundDepth, nearest + kMostDepthPerExtent * extent)) + 0.01 * extent;
+        std::max(high.z, std::min(groundDepth, nearest + kMostDepthPerExtent * extent)) +
+        0.01 * extent;
 
     ShadowWindow window;
     window.extentM = extent;
@@ -66,7 +73,8 @@ ShadowWindow fitShadowWindow(const Bounds& casters, const Sun& sun) {
                                 {-light / window.depthRangeM, -nearest / window.depthRangeM},
                                 {0, 0, 0, 1}};
     for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) window.shadowFromWorld[column][row] = rows[row][column];
+        for (int column = 0; column < 4; ++column)
+            window.shadowFromWorld[column][row] = rows[row][column];
     return window;
 }
 

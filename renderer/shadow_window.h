@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The part of the world that a light's map covers: a square across the light's direction, fitted to the casters.
-// Receivers outside it are lit. Depth is linear along the light, 0 at the nearest caster, 1 at the farthest caster or
-// ground point under the square; what lies beyond is clamped there.
+// The part of the world that a light's map covers: a square across the light's direction, fitted to
+// the casters. Receivers outside it are lit. Depth is linear along the light, 0 at the nearest
+// caster, 1 at the farthest caster or ground point under the square; what lies beyond is clamped
+// there.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,7 +18,8 @@ struct ShadowWindow {
     glm::vec3 towardsLight{0, 1, 0};
 };
 
-/// Throws std::invalid_argument where the bounds are empty or not finite, or the sun is not over the horizon.
+/// Throws std::invalid_argument where the bounds are empty or not finite, or the sun is not over
+/// the horizon.
 ShadowWindow fitShadowWindow(const Bounds& casters, const Sun& sun);
 
 }  // namespace renderer

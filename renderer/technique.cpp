@@ -91,26 +91,30 @@ const Technique& findTechnique(std::string_view name) {
         if (technique.name == name) return technique;
         known += (known.empty() ? "" : ", ") + std::string(technique.name);
     }
-    throw std::invalid_argument("technique \"" + std::string(name) + "\" is not known; known are: " + known);
+    throw std::invalid_argument("technique \"" + std::string(name) +
+                                "\" is not known; known are: " + known);
 }
 
-void setParameter(const Technique& technique, ParameterValues& values, std::string_view name, float value) {
+void setParameter(const Technique& technique, ParameterValues& values, std::string_view name,
+                  float value) {
     std::string known;
     for (std::size_t i = 0; i < technique.parameters.size(); ++i) {
         const TechniqueParameter& parameter = technique.parameters[i];
         if (parameter.name == name) {
             if (!(value >= parameter.low && value <= parameter.high))
                 throw std::invalid_argument("parameter " + std::string(name) + " of technique " +
-                                            std::string(technique.name) + " is " + std::to_string(value) +
-                                            ", must be in [" + std::to_string(parameter.low) + ", " +
+                                            std::string(technique.name) + " is " +
+                                            std::to_string(value) + ", must be in [" +
+                                            std::to_string(parameter.low) + ", " +
                                             std::to_string(parameter.high) + "]");
             values[i] = value;
             return;
         }
         known += (known.empty() ? "" : ", ") + std::string(parameter.name);
     }
-    throw std::invalid_argument("technique " + std::string(technique.name) + " has no parameter \"" +
-                                std::string(name) + "\"; it has: " + (known.empty() ? "none" : known));
+    throw std::invalid_argument("technique " + std::string(technique.name) +
+                                " has no parameter \"" + std::string(name) +
+                                "\"; it has: " + (known.empty() ? "none" : known));
 }
 
 }  // namespace renderer

@@ -23,7 +23,9 @@ struct Window::Handle {
     WindowInput input;
     double lastX = 0, lastY = 0;
 
-    static Handle& of(GLFWwindow* window) { return *static_cast<Handle*>(glfwGetWindowUserPointer(window)); }
+    static Handle& of(GLFWwindow* window) {
+        return *static_cast<Handle*>(glfwGetWindowUserPointer(window));
+    }
 
     static void onKey(GLFWwindow* window, int key, int, int action, int) {
         if (action == GLFW_RELEASE) return;
@@ -43,7 +45,8 @@ struct Window::Handle {
     static void onScroll(GLFWwindow* window, double, double y) { of(window).input.scroll += y; }
 };
 
-Window::Window(const std::string& title, int widthPx, int heightPx) : handle_(std::make_unique<Handle>()) {
+Window::Window(const std::string& title, int widthPx, int heightPx)
+    : handle_(std::make_unique<Handle>()) {
     if (glfwInit() != GLFW_TRUE) throw std::runtime_error("window: " + lastGlfwError());
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
@@ -92,7 +95,8 @@ void Window::present(unsigned framebuffer, int widthPx, int heightPx) {
     int width = 0;
     int height = 0;
     glfwGetFramebufferSize(handle_->window, &width, &height);
-    glBlitNamedFramebuffer(framebuffer, 0, 0, 0, widthPx, heightPx, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+    glBlitNamedFramebuffer(framebuffer, 0, 0, 0, widthPx, heightPx, 0, 0, width, height,
+                           GL_COLOR_BUFFER_BIT,
                            width == widthPx && height == heightPx ? GL_NEAREST : GL_LINEAR);
     glfwSwapBuffers(handle_->window);
 }

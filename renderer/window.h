@@ -2,7 +2,8 @@
 // A window with an OpenGL 4.5 core context (GLFW), and what the user did in it since the last look.
 //
 //   renderer::Window window("shadow_demo", 1280, 720);
-//   while (!window.closeWanted()) { const auto input = window.poll(); ...; window.present(framebuffer, w, h); }
+//   while (!window.closeWanted()) { const auto input = window.poll(); ...;
+//   window.present(framebuffer, w, h); }
 #pragma once
 
 #include <memory>
@@ -14,10 +15,10 @@
 namespace renderer {
 
 struct WindowInput {
-    std::vector<char> keys;            ///< letters and digits pressed, upper case; '\x1b' is Esc
-    double dragX = 0, dragY = 0;       ///< px moved with the left button held; y down
-    double scroll = 0;                 ///< wheel clicks, up positive
-    int widthPx = 0, heightPx = 0;     ///< of the framebuffer now; 0 while minimised
+    std::vector<char> keys;         ///< letters and digits pressed, upper case; '\x1b' is Esc
+    double dragX = 0, dragY = 0;    ///< px moved with the left button held; y down
+    double scroll = 0;              ///< wheel clicks, up positive
+    int widthPx = 0, heightPx = 0;  ///< of the framebuffer now; 0 while minimised
 };
 
 class Window {

@@ -2,9 +2,6 @@
 // The compare that every technique on a depth map shares: a texel against the receiver's plane at that texel's own
 // centre. The bias follows N in the same frame, since everything in it is counted in texels of this frame's map.
 
-// Covers rounding of depth in float32 (2^-24 near 1, a few operations on each side).
-const real kDepthRounding = real(2e-6);
-
 struct PlaneCompare {
     real atOrigin;  // depth of the receiver's plane at texel coordinates (0,0), bias taken off
     real2 perTexel; // its change from texel to texel
@@ -15,7 +12,7 @@ struct PlaneCompare {
 SHARED_FUNCTION PlaneCompare planeCompare(ShadowReceiver receiver, ShadowConstants shadow, real biasTexels) {
     PlaneCompare plane;
     plane.perTexel = receiver.depthGradient * shadow.map.y;
-    real bias = kDepthRounding + biasTexels * (abs(plane.perTexel.x) + abs(plane.perTexel.y));
+    real bias = receiver.depthError + biasTexels * (abs(plane.perTexel.x) + abs(plane.perTexel.y));
     plane.atOrigin = receiver.depth - bias - dot(receiver.depthGradient, receiver.uv);
     return plane;
 }

@@ -5,8 +5,8 @@
 // The disc is symmetric, so let M >= m >= 0 be the texel's distances from the disc's centre along the axes, larger
 // first. Across m the disc's edge is no steeper than 45 degrees: the length of the row piece [M-1/2, M+1/2] inside
 // the disc is integrated over m by the midpoint rule. Against the exact overlap (tests/renderer) a single weight is
-// off by at most .01, and a half-plane filtered with all of them by at most .0006 from 3.47 texels on. The exact area needs
-// asin, which drivers round to about 2^-11.
+// off by at most .012; a half-plane under the whole kernel by .0006 from 3.47 texels on, .0012 from 2.5 on, and .004,
+// one 8-bit level, below. The exact area needs asin, which drivers round to about 2^-11.
 
 // Texel widths. Small discs need finer rows, and have few texels.
 const real kFineRadius = real(2.5);
@@ -17,7 +17,7 @@ SHARED_FUNCTION real4 discCoverage4(real4 x, real4 y, real radius) {
     real4 smaller = min(abs(x), abs(y));
     real4 low = max(smaller - real4(0.5), real4(-radius));
     real4 high = min(smaller + real4(0.5), real4(radius));
-    int rows = radius < kFineRadius ? 16 : 4;
+    int rows = radius < kFineRadius ? 24 : 4;
     real4 rowHeight = max(high - low, real4(0.0)) / real(rows);
     real4 length4 = real4(0.0);
     for (int k = 0; k < rows; ++k) {

@@ -5,6 +5,7 @@ struct ShadowReceiver {
     real2 uv;             // on the map, [0,1] inside it
     real depth;           // linear light depth, 0 near, 1 far
     real2 depthGradient;  // d depth / d uv of the plane that the surface lies in
+    real depthError;      // how far float32 may have moved depth here or in the map
     real footprintUv;     // edge of one screen pixel on the map, as METHODS' pixel bound takes it
     bool facesLight;      // surfaces turned away are in shadow without a lookup
 };
@@ -14,6 +15,8 @@ const real kLeastDeterminant = real(1e-3);
 // The footprint counts as no more than this much longer than wide (METHODS section 7): grazing light would ask for
 // infinity where there is little contrast to see.
 const real kAnisotropyLimit = real(4.0);
+// Eight rounding steps of float32: transforms and interpolation on both sides.
+const real kRounding = real(4.8e-7);
 
 // Receiver-plane depth gradient (J. Isidoro, "Shadow mapping: GPU-based tips and techniques", GDC 2006), from the
 // plane's normal instead of screen derivatives: exact, and free of the derivatives' errors at silhouettes. The
@@ -63,6 +66,8 @@ SHARED_FUNCTION ShadowReceiver shadowReceiver(real3 eyeRelative, real3 planeNorm
     real3 gradientV = (rowV - rowW * receiver.uv.y) / h.w;
     real3 gradientDepth = real3(m[0][2], m[1][2], m[2][2]);
     receiver.depthGradient = receiverPlaneGradient(gradientU, gradientV, gradientDepth, planeNormal);
+    real reach = length(eyeRelative) + length(real3(view.eye));
+    receiver.depthError = kRounding * (real(1.0) + reach * length(gradientDepth));
 
     real viewDepth = dot(eyeRelative, real3(view.forward));
     real3 alongX = stepOnPlane(eyeRelative, planeNormal, real3(view.pixelRight) * viewDepth);

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: MIT
+// What the GPU (or its software stand-in) draws, against closed forms and against the CPU.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "renderer/renderer.h"
+#include "tests/renderer/edge_scene.h"
+#include "tests/renderer/exact_disc.h"
+#include "tests/renderer/image_check.h"
+
+namespace {
+
+using renderer::FloatImage;
+using renderer::FrameSettings;
+using renderer::Technique;
+using testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+
+/// One context for the whole program. No context is a failure, not a skip: this project runs on a
+/// software GL.
+const renderer::GlInfo& gl() {
+    static const renderer::HeadlessContext context;
+    return context.info();
+}
+
+const Technique* disc() {
+    return &renderer::findTechnique("pcf_disc");
+}
+
+TEST(HeadlessContext, IsOpenGl45) {
+    EXPECT_FALSE(gl().renderer.empty());
+    EXPECT_THAT(gl().platform, HasSubstr("EGL"));
+    EXPECT_GE(gl().maxResolution, 8192);
+    RecordProperty("renderer", gl().renderer);
+}
+
+TEST(DepthPass, PlateAndGroundHaveTheirAnalyticDepth) {
+    const float turn = 11;
+    const renderer::Sun sun{.azimuthDeg = 30, .elevationDeg = 55};
+    renderer::Renderer frame(gl(), tests::edgeScene(turn, sun), 64, 36);
+    for (const int n : {64, 257, 1024}) {
+        frame.render({.technique = disc(), .resolution = n, .radiusUv = 0.01F});
+        const FloatImage map = frame.readShadowMap();
+        ASSERT_EQ(map.width, n);
+        const glm::dmat4& m = frame.window().shadowFromWorld;
+        const glm::dmat4 worldFromShadow = glm::inverse(m);
+        // Depth on a horizontal plane of that height at a place on the map.
+        const auto depthAt = [&](double u, double v, double height) {
+            const double zero = (worldFromShadow * glm::dvec4(u, v, 0, 1)).y;
+            const double one = (worldFromShadow * glm::dvec4(u, v, 1, 1)).y;
+            return (height - zero) / (one - zero);
+        };
+        const glm::dmat4 plateFromWorld = glm::inverse(glm::dmat4(tests::plateTurn(turn)));
+        int plateTexels = 0;
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                const double u = (i + 0.5) / n;
+                const double v = (j + 0.5) / n;
+                const double plateDepth = depthAt(u, v, tests::kPlateHeight);
+                const glm::dvec4 onPlate =
+                    plateFromWorld * worldFromShadow * glm::dvec4(u, v, plateDepth, 1);
+                const double edge =
+                    std::max(std::abs(onPlate.x), std::abs(onPlate.z)) - tests::kPlateHalfWidth;
+                const double texelM = frame.window().extentM / n;
+                if (std::abs(edge) < 2 * texelM) continue;  // the rasteriser decides there
+                const double expected = edge < 0 ? plateDepth : std::min(depthAt(u, v, 0), 1.0);
+                // float32 depth, and vertices snapped to 1/256 texel on planes that fall by up
+                // to 1.4 a map edge.
+                EXPECT_NEAR(map.at(i, j), expected, 1e-6 + 1.4 / 256 / n) << i << " " << j;
+                plateTexels += edge < 0 ? 1 : 0;
+            }
+        EXPECT_GT(plateTexels, n * n / 5);
+    }
+}
+
+TEST(DepthPass, MapInACornerOfALargerTextureIsTheSameMap) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 160, 90);
+    const FrameSettings settings{.technique = disc(), .resolution = 200, .radiusUv = 0.01F};
+    frame.render(settings);
+    const FloatImage map = frame.readShadowMap();
+    const FloatImage visibility = frame.readVisibility();
+    EXPECT_EQ(frame.mapBytes(), 200U * 200U * 4U);
+    frame.reserveMap(512);
+    frame.render(
+        {.technique = disc(), .resolution = 512, .radiusUv = 0.01F});  // leaves its depths behind
+    frame.render(settings);
+    EXPECT_EQ(frame.mapBytes(), 512U * 512U * 4U);
+    EXPECT_EQ(frame.readShadowMap().values, map.values);
+    EXPECT_EQ(frame.readVisibility().values, visibility.values);
+}
+
+// Same map, same constants, same receivers: what differs is the rounding of the lookup alone. A
+// compare that falls the other way moves one texel's weight, at most 1 / (pi (r/a)^2) or a whole
+// texel for a hard shadow.
+TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
+    for (const auto& entry : renderer::builtInScenes()) {
+        renderer::Renderer frame(gl(), renderer::makeScene(entry.name), 240, 135);
+        const double softness = frame.scene().softnessM / frame.window().extentM;
+        for (const Technique& technique : renderer::techniques())
+            for (const auto& [n, radius] : {std::pair{1024, softness},
+                                            {333, softness},
+                                            {64, softness},
+                                            {1, 0.3},
+                                            {40, 0.0},
+                                            {24, 1.0}}) {
+                frame.render({.technique = &technique,
+                              .resolution = n,
+                              .radiusUv = static_cast<float>(radius)});
+                const FloatImage gpu = frame.readVisibility();
+                const FloatImage map = frame.readShadowMap();
+                const FloatImage positions = frame.readPositions();
+                const FloatImage planes = frame.readPlanes();
+                FloatImage cpu(gpu.width, gpu.height);
+                for (int y = 0; y < cpu.height; ++y)
+                    for (int x = 0; x < cpu.width; ++x) {
+                        cpu.at(x, y) = 1;
+                        if (positions.at(x, y, 3) == 0) continue;
+                        const auto receiver = renderer::f32::shadowReceiver(
+                            {positions.at(x, y, 0), positions.at(x, y, 1), positions.at(x, y, 2)},
+                            {planes.at(x, y, 0), planes.at(x, y, 1), planes.at(x, y, 2)},
+                            frame.viewConstants(), frame.shadowConstants());
+                        cpu.at(x, y) = !receiver.facesLight ? 0
+                                                            : renderer::cpuFilter(technique).f32(
+                                                                  {map.values.data(), n}, receiver,
+                                                                  frame.shadowConstants());
+                    }
+                const double texels = radius * n;
+                const double oneTexel =
+                    technique.soft ? std::min(1.0, 1.0 / (kPi * texels * texels + 1e-9)) : 1.0;
+                tests::expectImagesAgree(
+                    std::string(entry.name) + "_" + std::string(technique.name) + "_" +
+                        std::to_string(n),
+                    gpu, cpu,
+                    {.most = 2 * oneTexel + 1e-4, .often = 1e-4, .shareBeyondOften = 0.002});
+            }
+    }
+}
+
+/// Distances from the shadow's edge in radii, and visibility there, for the ground pixels beside
+/// the edge's middle.
+std::vector<std::pair<double, double>> edgeSamples(renderer::Renderer& frame, float turn,
+                                                   double radiusUv) {
+    const tests::PixelReceivers pixels(frame);
+    const FloatImage visibility = frame.readVisibility();
+    std::vector<std::pair<double, double>> samples;
+    for (int y = 0; y < visibility.height; ++y)
+        for (int x = 0; x < visibility.width; ++x) {
+            const auto receiver = pixels.at(x, y);
+            if (!receiver || std::abs(pixels.heightAt(x, y)) > 0.01) continue;
+            const tests::EdgePlace place = tests::placeAtEdge(frame.window(), turn, receiver->uv);
+            if (std::abs(place.alongUv) > place.halfLengthUv - 2 * radiusUv ||
+                std::abs(place.distanceUv) > 2 * radiusUv)
+                continue;
+            samples.emplace_back(place.distanceUv / radiusUv, visibility.at(x, y));
+        }
+    return samples;
+}
+
+TEST(Lookup, PenumbraOfAStraightEdgeIsTheDiscsProfile) {
+    constexpr double kRadius = 0.03;
+    for (const float turn : {7.0F, 31.0F}) {
+        renderer::Renderer frame(
+            gl(), tests::edgeScene(turn, {.azimuthDeg = 20, .elevationDeg = 60}), 320, 180);
+        for (const int n : {128, 256, 512, 1024}) {
+            frame.render(
+                {.technique = disc(), .resolution = n, .radiusUv = static_cast<float>(kRadius)});
+            const auto samples = edgeSamples(frame, turn, kRadius);
+            ASSERT_GT(samples.size(), 2000U);
+            // The staircase leaves at most half a ripple beside the profile; the kernel's weights
+            // .0012.
+            const double tolerance = 1.05 / (kPi * kRadius * n) + 0.0012;
+            double worst = 0;
+            for (const auto& [x, v] : samples)
+                worst = std::max(worst, std::abs(v - tests::discProfile(x)));
+            EXPECT_LT(worst, tolerance) << "turn " << turn << " N " << n;
+        }
+    }
+}
+
+/// The 10-90 % width in radii, from means over narrow bins of distance.
+double edgeWidth(const std::vector<std::pair<double, double>>& samples) {
+    constexpr double kBin = 0.04;
+    std::map<int, std::pair<double, int>> bins;
+    for (const auto& [x, v] : samples) {
+        auto& [sum, count] = bins[static_cast<int>(std::floor(x / kBin))];
+        sum += v;
+        ++count;
+    }
+    const auto crossing = [&](double level) {
+        double lastX = -2;
+        double lastV = 0;
+        for (const auto& [bin, sumCount] : bins) {
+            const double x = (bin + 0.5) * kBin;
+            const double v = sumCount.first / sumCount.second;
+            if (v >= level) return lastX + (x - lastX) * (level - lastV) / (v - lastV);
+            lastX = x;
+            lastV = v;
+        }
+        return 2.0;
+    };
+    return crossing(0.9) - crossing(0.1);
+}
+
+// The mean over the edge is the disc convolved with one texel, which widens it by about (a/r)^2 /
+// 12: .7 % at the smallest N here. Bins and pixel positions add about 1 %.
+TEST(Lookup, SoftnessDoesNotDependOnN) {
+    constexpr double kRadius = 0.03;
+    const float turn = 23;
+    renderer::Renderer frame(gl(), tests::edgeScene(turn, {.azimuthDeg = 20, .elevationDeg = 60}),
+                             320, 180);
+    for (const int n : {116, 200, 333, 512, 1024, 1500}) {
+        frame.render(
+            {.technique = disc(), .resolution = n, .radiusUv = static_cast<float>(kRadius)});
+        EXPECT_NEAR(edgeWidth(edgeSamples(frame, turn, kRadius)) / tests::discProfileWidth(), 1,
+                    0.02)
+            << n;
+    }
+}
+
+TEST(Lookup, EdgeRippleAtTheStudysSlopeStaysBelowItsLimit) {
+    constexpr double kRadius = 0.03;
+    const int n = static_cast<int>(std::lround(3.47 / kRadius));
+    for (const float turn : {1.5F, 4.0F, 12.0F, 40.0F}) {
+        renderer::Renderer frame(
+            gl(), tests::edgeScene(turn, {.azimuthDeg = 0, .elevationDeg = 70}), 480, 270);
+        frame.render(
+            {.technique = disc(), .resolution = n, .radiusUv = static_cast<float>(kRadius)});
+        double low = 0;
+        double high = 0;
+        for (const auto& [x, v] : edgeSamples(frame, turn, kRadius)) {
+            if (std::abs(x) > 0.1) continue;
+            low = std::min(low, v - tests::discProfile(x));
+            high = std::max(high, v - tests::discProfile(x));
+        }
+        EXPECT_LT(high - low, 2 / (kPi * 3.47)) << turn;
+        EXPECT_GT(high - low, 0.005) << "nothing was measured at " << turn;
+    }
+}
+
+TEST(Lookup, PlanesAreLitAtEveryNTiltAndLightAngle) {
+    for (const float tilt : {0.0F, 25.0F, 60.0F})
+        for (const float elevation : {10.0F, 35.0F, 70.0F, 90.0F}) {
+            renderer::Scene scene;
+            scene.name = "plane";
+            scene.objects.push_back(
+                {"plane",
+                 transformed(renderer::groundPlane(2, 8),
+                             glm::rotate(glm::mat4(1), glm::radians(tilt),
+                                         glm::normalize(glm::vec3(1, 0, 0.3F)))),
+                 {}});
+            scene.casters = boundsOf(scene.objects.front().mesh);
+            scene.casters.high.y += 0.5F;
+            scene.sun = {.azimuthDeg = 37, .elevationDeg = elevation};
+            scene.camera = {.pitchDeg = 70, .distanceM = 5};
+            renderer::Renderer frame(gl(), scene, 160, 90);
+            for (const Technique& technique : renderer::techniques()) {
+                if (!technique.holds(renderer::Property::planeLit)) continue;
+                for (const int n : {32, 100, 512, 2048}) {
+                    frame.render({.technique = &technique, .resolution = n, .radiusUv = 0.01F});
+                    const FloatImage visibility = frame.readVisibility();
+                    const FloatImage planes = frame.readPlanes();
+                    int lit = 0;
+                    int shadowed = 0;
+                    for (int y = 0; y < visibility.height; ++y)
+                        for (int x = 0; x < visibility.width; ++x) {
+                            const glm::vec3 normal(planes.at(x, y, 0), planes.at(x, y, 1),
+                                                   planes.at(x, y, 2));
+                            if (dot(normal, frame.window().towardsLight) < 0.02F) continue;
+                            ++(visibility.at(x, y) == 1 ? lit : shadowed);
+                        }
+                    EXPECT_EQ(shadowed, 0) << technique.name << " tilt " << tilt << " sun "
+                                           << elevation << " N " << n << " lit " << lit;
+                }
+            }
+        }
+}
+
+TEST(Lookup, RoundReceiversAreLitWhereTheyFaceTheLight) {
+    renderer::Scene scene;
+    scene.name = "ball";
+    scene.objects.push_back({"ball", renderer::sphere({0, 0, 0}, 1), {}});
+    scene.casters = boundsOf(scene.objects.front().mesh);
+    scene.sun = {.azimuthDeg = 30, .elevationDeg = 30};
+    scene.camera = {.distanceM = 4, .verticalFieldDeg = 40};
+    renderer::Renderer frame(gl(), scene, 160, 90);
+    for (const int n : {64, 512, 2048}) {
+        frame.render({.technique = disc(), .resolution = n, .radiusUv = 0.01F});
+        const tests::PixelReceivers pixels(frame);
+        const FloatImage visibility = frame.readVisibility();
+        for (int y = 0; y < visibility.height; ++y)
+            for (int x = 0; x < visibility.width; ++x) {
+                if (!pixels.at(x, y)) continue;
+                const glm::vec3 normal(pixels.planes.at(x, y, 0), pixels.planes.at(x, y, 1),
+                                       pixels.planes.at(x, y, 2));
+                if (dot(normal, frame.window().towardsLight) > 0.1F) {
+                    EXPECT_EQ(visibility.at(x, y), 1) << x << " " << y << " N " << n;
+                }
+            }
+    }
+}
+
+TEST(Frame, ExtremeSettingsGiveFiniteVisibilityInTheUnitRange) {
+    for (const auto& entry : renderer::builtInScenes()) {
+        renderer::Renderer frame(gl(), renderer::makeScene(entry.name), 48, 27);
+        for (const Technique& technique : renderer::techniques())
+            for (const int n : {1, 2, 3, 17})
+                for (const float radius : {0.0F, 1e-6F, 0.3F, 1.0F}) {
+                    frame.render({.technique = &technique,
+                                  .resolution = n,
+                                  .radiusUv = radius,
+                                  .minRadiusUv = 1});
+                    const FloatImage visibility = frame.readVisibility();
+                    for (const float v : visibility.values) EXPECT_TRUE(v >= 0 && v <= 1) << v;
+                }
+    }
+}
+
+TEST(Frame, RefusesSettingsOutOfRange) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 16, 9);
+    const auto message = [&](FrameSettings settings) -> std::string {
+        try {
+            frame.render(settings);
+        } catch (const std::exception& error) {
+            return error.what();
+        }
+        return "nothing was thrown";
+    };
+    EXPECT_THAT(message({.resolution = 0}), HasSubstr("resolution is 0, must be in [1, "));
+    EXPECT_THAT(message({.resolution = -5}), HasSubstr("resolution is -5"));
+    EXPECT_THAT(message({.resolution = 1 << 20}), HasSubstr("what the driver allows"));
+    EXPECT_THAT(message({.radiusUv = NAN}), HasSubstr("radiusUv is nan"));
+    EXPECT_THAT(message({.radiusUv = 1.5F}), HasSubstr("radiusUv is 1.5"));
+    EXPECT_THAT(message({.minRadiusUv = -1}), HasSubstr("minRadiusUv is -1"));
+    EXPECT_THROW(frame.resize(0, 9), std::invalid_argument);
+    EXPECT_THROW(frame.setSun({.elevationDeg = -3}), std::invalid_argument);
+    EXPECT_EQ(message({.resolution = 8}), "nothing was thrown") << "and it goes on working";
+}
+
+TEST(Frame, FootprintsAreThoseOfThePixelsInPenumbra) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 64, 36);
+    for (const Technique& technique : renderer::techniques()) {
+        frame.render({.technique = &technique, .resolution = 64, .radiusUv = 0.01F});
+        const tests::PixelReceivers pixels(frame);
+        const FloatImage visibility = frame.readVisibility();
+        std::vector<double> expected;
+        for (int y = 0; y < 36; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const auto receiver = pixels.at(x, y);
+                const bool inPenumbra = visibility.at(x, y) > 0 && visibility.at(x, y) < 1;
+                const bool matters = receiver && receiver->facesLight &&
+                                     (inPenumbra || !technique.soft) && receiver->uv.x >= 0 &&
+                                     receiver->uv.x <= 1 && receiver->uv.y >= 0 &&
+                                     receiver->uv.y <= 1;
+                expected.push_back(matters ? receiver->footprintUv : 0);
+            }
+        // Sixteen phases of a grid with spacing 4 visit every pixel once.
+        std::vector<double> found;
+        for (unsigned phase = 0; phase < 16; ++phase)
+            for (const float footprint : frame.footprintsUv(4, phase)) found.push_back(footprint);
+        ASSERT_EQ(found.size(), expected.size());
+        std::sort(found.begin(), found.end());
+        std::sort(expected.begin(), expected.end());
+        EXPECT_GT(expected.back(), 0) << technique.name;
+        // float32 on the GPU; grazing pixels lose some bits.
+        for (std::size_t i = 0; i < found.size(); ++i)
+            EXPECT_NEAR(found[i], expected[i], 1e-5 + 1e-3 * expected[i]) << technique.name;
+    }
+}
+
+TEST(Frame, ClockTimesThePassesThatTheFrameHad) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 64, 36);
+    renderer::PassClock clock(gl());
+    frame.render({.technique = disc(), .resolution = 64, .radiusUv = 0.01F, .lit = false}, &clock);
+    renderer::PassTimesMs times = clock.collectMs();
+    using renderer::Pass;
+    for (const Pass pass : {Pass::depth, Pass::prepass, Pass::lookup})
+        EXPECT_GT(times[static_cast<std::size_t>(pass)], 0);
+    for (const Pass pass : {Pass::lit, Pass::footprint})
+        EXPECT_EQ(times[static_cast<std::size_t>(pass)], 0);
+    frame.footprintsUv(4, 0, &clock);
+    times = clock.collectMs();
+    EXPECT_GT(times[static_cast<std::size_t>(Pass::footprint)], 0);
+    EXPECT_EQ(times[static_cast<std::size_t>(Pass::depth)], 0);
+}
+
+}  // namespace

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/shader_library.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/gl_context.h"
+#include "renderer/renderer.h"
+#include "renderer/scene.h"
+
+namespace {
+
+using renderer::ShaderLibrary;
+using testing::HasSubstr;
+
+template <class Call>
+std::string messageOf(const Call& call) {
+    try {
+        call();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+TEST(ShaderLibrary, PutsIncludesInPlaceAndNumbersTheFiles) {
+    const ShaderLibrary library(
+        ShaderLibrary::Files{{"a.frag", "one\n#include \"b.glsl\"\ntwo\n"}, {"b.glsl", "inner\n"}});
+    const renderer::ExpandedShader expanded = expandShader(library, "a.frag", {});
+    EXPECT_THAT(expanded.text, HasSubstr("#line 1 0\none\n#line 1 1\ninner\n#line 3 0\ntwo\n"));
+    EXPECT_EQ(expanded.files,
+              (std::vector<std::string>{"renderer/shaders/a.frag", "renderer/shaders/b.glsl"}));
+}
+
+TEST(ShaderLibrary, NamesMissingCircularAndMalformedIncludesWithTheirPlace) {
+    const ShaderLibrary library(ShaderLibrary::Files{{"missing.frag", "\n#include \"none.glsl\"\n"},
+                                                     {"loop.frag", "#include \"loop.glsl\"\n"},
+                                                     {"loop.glsl", "x\n#include \"loop.frag\"\n"},
+                                                     {"odd.frag", "#include <odd>\n"}});
+    EXPECT_EQ(
+        messageOf([&] { expandShader(library, "missing.frag", {}); }),
+        "renderer/shaders/missing.frag:2: shader file renderer/shaders/none.glsl does not exist");
+    EXPECT_EQ(messageOf([&] { expandShader(library, "loop.frag", {}); }),
+              "renderer/shaders/loop.glsl:2: loop.frag includes itself");
+    EXPECT_EQ(messageOf([&] { expandShader(library, "odd.frag", {}); }),
+              "renderer/shaders/odd.frag:1: #include needs a name in double quotes, found: <odd>");
+    EXPECT_EQ(messageOf([&] { expandShader(library, "absent.frag", {}); }),
+              "shader file renderer/shaders/absent.frag does not exist");
+    EXPECT_THAT(messageOf([] { ShaderLibrary::fromFolder("/nowhere"); }), HasSubstr("/nowhere"));
+}
+
+TEST(ShaderLibrary, TranslatesWhatDriversReport) {
+    const std::vector<std::string> files = {"a.frag", "b.glsl"};
+    EXPECT_EQ(renderer::locatedLog("1:12(5): error: bad\n", files),
+              "b.glsl:12: error: bad");  // Mesa
+    EXPECT_EQ(renderer::locatedLog("0(7) : error C1503: bad\n", files),
+              "a.frag:7: error C1503: bad");                                              // NVIDIA
+    EXPECT_EQ(renderer::locatedLog("ERROR: 1:3: bad\n", files), "b.glsl:3: ERROR: bad");  // others
+    EXPECT_EQ(renderer::locatedLog("no place here\n", files), "no place here");
+}
+
+// A mistake in a technique's file, three includes deep in the lookup pass, is reported in that
+// file.
+TEST(ShaderLibrary, CompileErrorsNameOurFileAndLineThroughIncludes) {
+    const renderer::HeadlessContext context;
+    ShaderLibrary::Files files = ShaderLibrary::embedded().files();
+    files["filters/pcf_disc.glsl"] =
+        "// nothing\nfloat filterVisibility(sampler2D map, ShadowReceiver receiver, "
+        "ShadowConstants shadow) {\n    return unknownName;\n}\n";
+    renderer::Renderer renderer(context.info(), renderer::makeScene("planar_occluder"), 8, 8,
+                                ShaderLibrary(files));
+    const std::string message = messageOf([&] {
+        renderer.render({.technique = &renderer::findTechnique("pcf_disc"), .resolution = 8});
+    });
+    EXPECT_THAT(message, HasSubstr("shader renderer/shaders/passes/lookup.frag does not compile"));
+    EXPECT_THAT(message, HasSubstr("renderer/shaders/filters/pcf_disc.glsl:3: error"));
+    EXPECT_THAT(message, HasSubstr("unknownName"));
+    EXPECT_THAT(message, HasSubstr("PARAMETER_bias_texels=shadow.parameters[0][0]"));
+}
+
+TEST(ShaderLibrary, EveryShaderOfTheTreeIsBuiltIn) {
+    const ShaderLibrary tree = ShaderLibrary::fromFolder(STAIRWELL_SOURCE_DIR "/renderer/shaders");
+    EXPECT_EQ(tree.files(), ShaderLibrary::embedded().files());
+}
+
+}  // namespace
