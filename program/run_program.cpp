@@ -39,8 +39,9 @@ void flushStandardOutput() {
     std::cout.flush();
     const bool flushed = std::fflush(stdout) == 0;
     if (flushed && std::cout.good() && std::ferror(stdout) == 0) return;
-    const std::string reason = errno != 0 ? std::strerror(errno) : "write error";
-    throw std::runtime_error("standard output: cannot be written: " + reason);
+    // The reason of an earlier failure, in the middle of the run, is not known any more.
+    const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
+    throw std::runtime_error("standard output: cannot be written" + reason);
 }
 
 std::string nameOf(const CLI::App& app, int argc, char** argv) {

@@ -176,7 +176,7 @@ const TrialColumn kColumns[] = {
      {{"2afc", "two panels side by side: which one has the artifact?"}, {"yes_no", "one panel: is there an artifact?"}},
      STAIRWELL_WORD(task, kTaskWords)},
     {"proposed_radius_px", kRequired, "Filter radius that the staircase proposed, before display limits", "px", {}, STAIRWELL_NUMBER(proposedRadiusPx, kPositive)},
-    {"filter_radius_px", kRequired, "Filter radius r that was shown", "px", {}, STAIRWELL_NUMBER(filterRadiusPx, kPositive)},
+    {"filter_radius_px", kRequired, "Filter radius r that was shown", "px", {}, STAIRWELL_NUMBER(filterRadiusPx, kFinite)},
     {"response", kRequired, "Answer of the observer", "",
      {{"left", "2afc: the left panel"}, {"right", "2afc: the right panel"}, {"seen", "yes_no: an artifact"}, {"not_seen", "yes_no: none, or undecided"}},
      STAIRWELL_WORD(response, kResponseWords)},
@@ -220,6 +220,8 @@ std::optional<BrokenRule> brokenRule(const Trial& trial) {
                                           ? "must be left or right in the task 2afc"
                                           : "must be seen or not_seen in the task yes_no"};
     const bool isArtifact = trial.type == TrialType::artifact;
+    if (isArtifact && !kPositive.holds(trial.filterRadiusPx))
+        return BrokenRule{"filter_radius_px", kPositive.text() + " on an artifact trial"};
     if (trial.task == Task::yesNo &&
         trial.correct != ((trial.response == Response::seen) == isArtifact))
         return BrokenRule{"correct",

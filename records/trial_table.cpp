@@ -49,6 +49,7 @@ class TableParser {
         if (text_.empty()) fail("is empty: a trial table starts with a line of column names");
         readHeader();
         while (nextLine()) readRow();
+        if (oddRadii_ > 0) noteOddRadii();
         return std::move(table_);
     }
 
@@ -105,6 +106,7 @@ class TableParser {
         if (const auto broken = brokenRule(trial))
             failCell(broken->column, cellOf(broken->column), broken->rule);
         if (trial.status == TrialStatus::ok) requireRisingNumber(trial.number);
+        if (trial.filterRadiusPx <= 0 && oddRadii_++ == 0) firstOddRadius_ = line_;
         table_.trials.push_back(std::move(trial));
     }
 
@@ -123,6 +125,14 @@ class TableParser {
                          ", the ok trial before it (line " + std::to_string(lastOkLine_) + ")");
         lastOk_ = number;
         lastOkLine_ = line_;
+    }
+
+    void noteOddRadii() {
+        table_.notices.push_back(
+            table_.file.string() + ": line " + std::to_string(firstOddRadius_) +
+            ": column filter_radius_px: not greater than 0 on " + std::to_string(oddRadii_) +
+            " reference trials from here on; kept, since only the answer "
+            "counts on them");
     }
 
     std::string_view cellOf(std::string_view column) const {
@@ -149,6 +159,8 @@ class TableParser {
     std::vector<ColumnReader> columns_;
     int lastOk_ = 0;
     std::size_t lastOkLine_ = 0;
+    std::size_t oddRadii_ = 0;  // rows with a radius that is not positive (reference trials)
+    std::size_t firstOddRadius_ = 0;
     TrialTable table_;
 };
 

@@ -12,6 +12,11 @@
 // std::runtime_error whose sentence names file, line, column, the value found and the rule. A torn
 // last line (no line end) is dropped with a notice.
 //
+// One exception: on a reference trial any finite radius is taken, with a notice where it is not
+// positive. Public tables hold such rows (a staircase in px that ran below zero); a filter leaves
+// an artifact-free straight edge straight at any radius, and only the answer counts there. Take
+// log10 of the radius on artifact trials only.
+//
 // The cells are UTF-8 without quotes or escapes: a tab, a line end or another control character
 // cannot stand in a cell, and the writers refuse it. Row i (from 0) of a table that was read stands
 // on line i + 2 of its file.
@@ -27,10 +32,8 @@
 
 namespace records {
 
-enum class TrialType {
-    artifact,
-    reference
-};  ///< reference: the artifact-free stimulus (catch trial)
+/// reference: the artifact-free stimulus (catch trial)
+enum class TrialType { artifact, reference };
 enum class Pattern { stair, step, line, frame };
 enum class Task { twoAfc, yesNo };  ///< written "2afc", "yes_no"
 enum class Response { left, right, seen, notSeen };
@@ -84,7 +87,7 @@ struct Trial {
     std::string kernel;              ///< "disc", "box", "gaussian"
     Task task = Task::twoAfc;
     std::optional<double> proposedRadiusPx;  ///< by the staircase, before display limits
-    double filterRadiusPx = 0;               ///< r that was shown, screen px, > 0
+    double filterRadiusPx = 0;  ///< r that was shown, screen px; > 0 on artifact trials
     Response response = Response::left;
     bool correct =
         false;  ///< 2AFC: the side was right; yes/no: seen on artifact, not_seen on reference

@@ -204,7 +204,9 @@ TEST(TrialTable, NamesFileLineColumnValueAndRuleOfEveryBadCell) {
         {"proposed_radius_px", "0", finite + ", or n/a"},
         {"proposed_radius_px", "", finite + ", or n/a"},
         {"filter_radius_px", "0", finite},
-        {"filter_radius_px", "NaN", finite},
+        {"filter_radius_px", "-4", finite + " on an artifact trial"},
+        {"filter_radius_px", "NaN", "must be a finite number"},
+        {"filter_radius_px", "n/a", "must be a finite number"},
         {"response", "up", "must be one of left, right, seen, not_seen"},
         {"response", "seen", "must be left or right in the task 2afc"},
         {"task", "yes_no", "must be seen or not_seen in the task yes_no"},
@@ -293,6 +295,18 @@ TEST(TrialTable, OnlyOkRowsNeedRisingNumbers) {
                 HasSubstr("line 3: column trial: \"1\": must be greater"));
 }
 
+TEST(TrialTable, ReferenceTrialsMayHaveAnyFiniteRadiusWithANotice) {
+    Cells cells = plainTable();
+    cells.set(2, "filter_radius_px", "-1.46361");
+    const TrialTable table = parsed(cells);
+    EXPECT_EQ(table.trials[2].filterRadiusPx, -1.46361);
+    ASSERT_EQ(table.notices.size(), 1u);
+    EXPECT_THAT(table.notices[0],
+                HasSubstr("line 4: column filter_radius_px: not greater than 0 on 1 reference"));
+    cells.set(2, "filter_radius_px", "nan");
+    EXPECT_THAT(parseError(cells.text()), HasSubstr("line 4: column filter_radius_px: \"nan\""));
+}
+
 TEST(TrialTable, WritersRefuseWhatAReaderWouldNotGiveBack) {
     const Trial good = parsed(plainTable()).trials[0];
     const auto refusal = [&](const std::function<void(Trial&)>& spoil) {
@@ -308,7 +322,7 @@ TEST(TrialTable, WritersRefuseWhatAReaderWouldNotGiveBack) {
     EXPECT_THAT(refusal([](Trial& t) { t.staircase = "n/a"; }), HasSubstr("n/a"));
     EXPECT_THAT(refusal([](Trial& t) { t.extra = {"ok", "a\tb"}; }), HasSubstr("extra"));
     EXPECT_THAT(refusal([](Trial& t) { t.filterRadiusPx = std::nan(""); }),
-                HasSubstr("trial 1: column filter_radius_px: \"nan\": must be a number greater"));
+                HasSubstr("trial 1: column filter_radius_px: \"nan\": must be a finite number"));
     EXPECT_THAT(refusal([](Trial& t) { t.onsetS = HUGE_VAL; }), HasSubstr("column onset_s"));
     EXPECT_THAT(refusal([](Trial& t) { t.side = "top"; }), HasSubstr("column side"));
     EXPECT_THAT(refusal([](Trial& t) { t.response = Response::seen; }), HasSubstr("response"));
@@ -383,7 +397,8 @@ TEST(TrialTable, ReadsTheHumanTablesAsTheyAre) {
     EXPECT_EQ(files.size(), 12u);
     for (const auto& file : files) {
         const TrialTable table = readTrialTable(file);
-        EXPECT_THAT(table.notices, IsEmpty());
+        EXPECT_LE(table.notices.size(), 1u);
+        for (const auto& notice : table.notices) EXPECT_THAT(notice, HasSubstr("filter_radius_px"));
         EXPECT_THAT(table.extraColumns, ElementsAre("noise_levels"));
         const auto lines = tests::readBytes(file);
         EXPECT_EQ(static_cast<std::ptrdiff_t>(table.trials.size()) + 1,
