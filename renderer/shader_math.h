@@ -64,6 +64,7 @@ glm::vec4 textureGather(const MapView& map, const glm::vec<2, Real>& coordinate)
         glm::length, glm::lessThan;                                                    \
     using glm::log, glm::max, glm::min, glm::mix, glm::normalize, glm::sqrt;
 
+// clang-format off: the order of these includes matters
 namespace f32 {
 STAIRWELL_SHADER_LANGUAGE(float)
 #include "renderer/shaders/shared/constants.glsl"
@@ -79,6 +80,7 @@ STAIRWELL_SHADER_LANGUAGE(double)
 #include "renderer/shaders/shared/disc_kernel.glsl"
 #include "renderer/shaders/shared/receiver.glsl"
 }  // namespace f64
+// clang-format on
 
 #undef STAIRWELL_SHADER_LANGUAGE
 
