@@ -64,21 +64,22 @@ glm::vec4 textureGather(const MapView& map, const glm::vec<2, Real>& coordinate)
         glm::length, glm::lessThan;                                                    \
     using glm::log, glm::max, glm::min, glm::mix, glm::normalize, glm::sqrt;
 
-// clang-format off: the order of these includes matters
+// Each file needs the ones before it.
+// clang-format off
 namespace f32 {
 STAIRWELL_SHADER_LANGUAGE(float)
 #include "renderer/shaders/shared/constants.glsl"
+#include "renderer/shaders/shared/receiver.glsl"
 #include "renderer/shaders/shared/depth_compare.glsl"
 #include "renderer/shaders/shared/disc_kernel.glsl"
-#include "renderer/shaders/shared/receiver.glsl"
 }  // namespace f32
 
 namespace f64 {
 STAIRWELL_SHADER_LANGUAGE(double)
 #include "renderer/shaders/shared/constants.glsl"
+#include "renderer/shaders/shared/receiver.glsl"
 #include "renderer/shaders/shared/depth_compare.glsl"
 #include "renderer/shaders/shared/disc_kernel.glsl"
-#include "renderer/shaders/shared/receiver.glsl"
 }  // namespace f64
 // clang-format on
 
