@@ -20,6 +20,9 @@ constexpr double kNegligible = 1e-290;
 constexpr std::size_t kBlock = 16;
 constexpr std::size_t kBlocksAtOnce = 4;
 
+/// No stimulus is there; keeps the arithmetic of absurd parameters finite.
+constexpr double kLargestPlace = 1e6;
+
 std::size_t roundUp(std::size_t value, std::size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
 }
@@ -33,7 +36,7 @@ ResponseModel responseModel(const QuestParameters& p) {
     return {.gamma = gamma, .lapse = p.delta, .lapseGuess = gamma};
 }
 
-/// D of METHODS section 4 as a real number, so that validate() can look at it.
+/// D, the number of intervals, as a real number, so that validate() can look at it.
 double intervalCount(const QuestParameters& p) {
     return p.range ? 2 * std::ceil(*p.range / p.grain / 2) : 500;
 }
@@ -48,30 +51,29 @@ std::string validateNumbers(const QuestParameters& p) {
     const auto probability = [](double v) { return v >= 0 && v <= 1; };
     const char* const kPositive = "must be finite and greater than 0";
     const char* const kProbability = "must be a probability in [0, 1]";
+    const auto onTheAxis = [](double v) { return std::abs(v) <= kLargestPlace; };
+    const char* const kOnTheAxis = "must be within 1000000 log10 units";
     if (!std::isfinite(p.priorMean)) return sentence("priorMean", p.priorMean, "must be finite");
+    if (!onTheAxis(p.priorMean)) return sentence("priorMean", p.priorMean, kOnTheAxis);
     if (!positive(p.priorSd)) return sentence("priorSd", p.priorSd, kPositive);
     if (!positive(p.beta)) return sentence("beta", p.beta, kPositive);
     if (!positive(p.grain)) return sentence("grain", p.grain, kPositive);
+    if (!onTheAxis(p.grain)) return sentence("grain", p.grain, kOnTheAxis);
     if (p.range && !positive(*p.range)) return sentence("range", *p.range, kPositive);
+    if (p.range && !onTheAxis(*p.range)) return sentence("range", *p.range, kOnTheAxis);
     if (!probability(p.pThreshold)) return sentence("pThreshold", p.pThreshold, kProbability);
     if (!probability(p.delta)) return sentence("delta", p.delta, kProbability);
     if (!probability(p.gamma)) return sentence("gamma", p.gamma, kProbability);
     return {};
 }
 
-/// u where the table w over u(k) reaches `probability`, by linear interpolation over the points
-/// where w rises (and the end of the last rise). The caller has made sure that it is reached.
+/// u where the table w over u(k) reaches `probability`, by linear interpolation between the two
+/// points of that rise. The caller has made sure that it is reached.
 template <typename Place>
 double offsetOfThreshold(std::span<const double> w, double probability, Place u) {
-    double lowerW = w[0], lowerU = u(0);
-    for (std::size_t k = 1; k < w.size(); ++k) {
-        if (w[k] >= probability) {
-            return lowerU + (probability - lowerW) / (w[k] - lowerW) * (u(k) - lowerU);
-        }
-        if (k + 1 < w.size() && !(w[k + 1] > w[k])) continue;
-        lowerW = w[k], lowerU = u(k);
-    }
-    return lowerU;
+    std::size_t k = 1;
+    while (w[k] < probability) ++k;
+    return u(k - 1) + (probability - w[k - 1]) / (w[k] - w[k - 1]) * (u(k) - u(k - 1));
 }
 
 /// Quantile order of the most informative placement; depends on the ends of the curve alone.

@@ -17,9 +17,11 @@ bool positiveAndFinite(float value) {
 }  // namespace
 
 float pixelFootprint(const UvDerivatives& d) noexcept {
-    // Singular values of a 2 x 2 matrix as sum and difference of two lengths.
-    const float larger = std::hypot(d.dudx + d.dvdy, d.dvdx - d.dudy) / 2;
-    const float other = std::hypot(d.dudx - d.dvdy, d.dvdx + d.dudy) / 2;
+    // Singular values of a 2 x 2 matrix as sum and difference of two lengths. A square root, unlike
+    // hypot(), is the same everywhere.
+    const auto length = [](float x, float y) { return std::sqrt(x * x + y * y); };
+    const float larger = length(d.dudx + d.dvdy, d.dvdx - d.dudy) / 2;
+    const float other = length(d.dudx - d.dvdy, d.dvdx + d.dudy) / 2;
     const float largest = larger + other;
     if (!positiveAndFinite(largest)) return 0;
     return std::max(std::abs(larger - other), largest / kAnisotropyLimit);

@@ -29,7 +29,7 @@ std::vector<QuestParameters> variedParameters() {
                     replaced = vague, noLapse = vague;
     vague.priorSd = 2;
     coarse.grain = 0.05;
-    coarse.range = 3.0;
+    coarse.range = 3.05;  // 61 steps: 62 intervals
     tight.priorSd = 0.01;
     odd.priorMean = 1.2345;
     odd.grain = 0.013;
@@ -311,6 +311,9 @@ TEST(Quest, TenThousandTrialsDoNotUnderflow) {
     for (double& v : logPdf) total += v = std::exp(v - largest);
     // 1e-9: 10,000 roundings of 1e-16 each, relative, grow to 1e-12.
     for (std::size_t j = 0; j < 501; ++j) EXPECT_NEAR(staircase.pdf()[j], logPdf[j] / total, 1e-9);
+    for (const double v : staircase.pdf()) {
+        EXPECT_TRUE(v == 0 || v > 1e-300) << "a denormal number would stick, and slow every trial";
+    }
     EXPECT_TRUE(staircase.warnings().empty());
     EXPECT_NEAR(staircase.mean(), -0.2, 0.015);  // 5 sd of .0375 sqrt(40 / 10000)
 }
@@ -358,6 +361,18 @@ TEST(Quest, QuantilesRiseWithTheirOrderFromEndToEnd) {
     }
 }
 
+TEST(Quest, QuantilesInterpolateOnlyBetweenPointsWhereTheSumRises) {
+    // The narrowest prior allowed: 1, and 1e-87 beside it; the next is 0 in double.
+    QuestParameters p = quest::kPaperParameters;
+    p.priorSd = p.grain / 20;
+    const Quest staircase(p);
+    const slow::Quest reference(p);
+    for (const double order : {1e-90, 1e-88, 1e-80, 1e-9, 0.3, 0.999}) {
+        EXPECT_NEAR(staircase.quantile(order), reference.quantile(order), 1e-9) << order;
+    }
+    EXPECT_LT(staircase.quantile(1e-90), staircase.candidate(1));
+}
+
 TEST(Quest, RefusesWhatIsNoTrial) {
     Quest staircase(quest::kPaperParameters);
     const std::vector<double> before(staircase.pdf().begin(), staircase.pdf().end());
@@ -402,8 +417,11 @@ TEST(Quest, RefusesUnusableParametersByNameValueAndRule) {
         {[](auto& p) { p.grain = kInf; }, "grain is inf"},
         {[](auto& p) { p.range = 0.0; }, "range is 0"},
         {[](auto& p) { p.range = kNan; }, "range is nan"},
-        {[](auto& p) { p.range = 1e9; }, "at most 1000000 intervals"},
-        {[](auto& p) { p.grain = 1e-300, p.range = 1e10; }, "at most 1000000 intervals"},
+        {[](auto& p) { p.range = 1e5; }, "at most 1000000 intervals"},
+        {[](auto& p) { p.range = 1e9; }, "range is 1000000000: must be within 1000000 log10"},
+        {[](auto& p) { p.grain = p.priorSd = 1e308; }, "grain is 1e+308: must be within"},
+        {[](auto& p) { p.priorMean = -1e300; }, "priorMean is -1e+300: must be within"},
+        {[](auto& p) { p.grain = 1e-300, p.range = 1e5; }, "at most 1000000 intervals"},
         {[](auto& p) { p.pThreshold = 1.2; }, "pThreshold is 1.2: must be a probability in [0, 1]"},
         {[](auto& p) { p.pThreshold = kNan; }, "pThreshold is nan"},
         {[](auto& p) { p.delta = -0.01; }, "delta is -0.01: must be a probability in [0, 1]"},

@@ -1,48 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The calls of a frame allocate nothing: counted by the operators themselves.
+// The calls of a frame allocate nothing: counted by operator new itself.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "resolution_controller/resolution_controller.h"
-
-namespace {
-std::atomic<long> allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
-    throw std::bad_alloc();
-}
-void* operator new[](std::size_t size) {
-    return operator new(size);
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p, std::size_t) noexcept {
-    std::free(p);
-}
+#include "tests/resolution_controller/counting_new.h"
 
 namespace {
 
 namespace rc = resolution_controller;
 
 TEST(Allocation, IsCounted) {
-    const long before = allocations;
+    const long before = allocationCount();
     EXPECT_NE(rc::validate(rc::Settings{.percentile = 2}), "");
-    const long after = allocations;
+    const long after = allocationCount();
     EXPECT_GT(after, before);
 }
 
@@ -51,7 +24,7 @@ TEST(Allocation, NoneInTheCallsOfAFrame) {
     rc::DemandHistogram histogram;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     long reasonLength = 0;
-    const long before = allocations;
+    const long before = allocationCount();
     for (int frame = 0; frame < 500; ++frame) {
         const float r = 0.0005f * float(1 + frame % 60);
         histogram.add(rc::demand(3.47f, r, rc::pixelFootprint({.dudx = r, .dvdy = r})));
@@ -63,7 +36,7 @@ TEST(Allocation, NoneInTheCallsOfAFrame) {
             reasonLength += rc::text(d.reason)[0];
         }
     }
-    const long after = allocations;
+    const long after = allocationCount();
     EXPECT_EQ(after, before);
     EXPECT_GT(reasonLength, 0);
 }

@@ -141,6 +141,9 @@ TEST(ResolutionController, PercentileIsMetExactly) {
               128);
     EXPECT_EQ(rc::ResolutionController({}).update(histogramOf({{100.0f, 97}, {4000.0f, 3}})).size,
               4096);
+    // 98 % of 99 are 97.02: so many are met only by 98.
+    EXPECT_EQ(rc::ResolutionController({}).update(histogramOf({{100.0f, 97}, {4000.0f, 2}})).size,
+              4096);
     // One sample is a histogram, and the smallest percentile is still somebody's.
     EXPECT_EQ(rc::ResolutionController({.percentile = 1e-12})
                   .update(histogramOf({{1000.0f, 1}, {4000.0f, 1}}))
