@@ -28,7 +28,7 @@ enum class Orientation { any, horizontal, vertical };
 /// silhouette of a given angle sampled at texel centres.
 struct Silhouette {
     records::Pattern pattern = records::Pattern::stair;  ///< stair, step or line
-    std::optional<double> angleDeg;                      ///< of a line alone, (0, 45)
+    std::optional<double> angleDeg = {};                 ///< of a line alone, (0, 45)
     Orientation orientation = Orientation::any;          ///< of step and line
     bool operator==(const Silhouette&) const = default;
 };

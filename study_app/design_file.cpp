@@ -208,25 +208,27 @@ Design readDesign(const fs::path& file) {
 ordered_json normalisedJson(const Design& d) {
     ordered_json patterns = ordered_json::array();
     for (const Silhouette& s : d.patterns) patterns.push_back(patternJson(s));
-    return {{"schema", records::schemaJson(kSchemaName, kDesignMajor, 0)},
-            {"name", d.name},
-            {"description", d.description},
-            {"task", records::toText(d.task)},
-            {"encoding", records::toText(d.encoding)},
-            {"window_px", d.windowPx},
-            {"artifact_px", d.artifactPx},
-            {"patterns", patterns},
-            {"lit_levels", d.litLevels},
-            {"kernels", d.kernels},
-            {"trials_per_condition", d.trialsPerCondition},
-            {"catch_share", d.catchShare},
-            {"quest", staircaseJson(d)},
-            {"radius_px", {{"min", d.radius.min}, {"max", d.radius.max}, {"step", d.radius.step}}},
-            {"roving",
-             {{"shift", d.roving.shift},
-              {"quarter_turn", d.roving.quarterTurn},
-              {"mirror", d.roving.mirror},
-              {"tilt", d.roving.tilt}}}};
+    ordered_json text{{"schema", records::schemaJson(kSchemaName, kDesignMajor, 0)},
+                      {"name", d.name}};
+    if (!d.description.empty()) text["description"] = d.description;
+    text.update(ordered_json{
+        {"task", records::toText(d.task)},
+        {"encoding", records::toText(d.encoding)},
+        {"window_px", d.windowPx},
+        {"artifact_px", d.artifactPx},
+        {"patterns", patterns},
+        {"lit_levels", d.litLevels},
+        {"kernels", d.kernels},
+        {"trials_per_condition", d.trialsPerCondition},
+        {"catch_share", d.catchShare},
+        {"quest", staircaseJson(d)},
+        {"radius_px", {{"min", d.radius.min}, {"max", d.radius.max}, {"step", d.radius.step}}},
+        {"roving",
+         {{"shift", d.roving.shift},
+          {"quarter_turn", d.roving.quarterTurn},
+          {"mirror", d.roving.mirror},
+          {"tilt", d.roving.tilt}}}});
+    return text;
 }
 
 std::string designDifference(const json& there, const json& here) {
@@ -260,7 +262,9 @@ std::vector<fs::path> designFolders() {
 
 std::vector<ShippedDesign> shippedDesigns() {
     std::vector<ShippedDesign> found;
+    std::string searched;
     for (const fs::path& folder : designFolders()) {
+        searched += (searched.empty() ? "" : ", ") + folder.string();
         std::error_code error;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
             const fs::path& file = entry.path();
@@ -269,6 +273,7 @@ std::vector<ShippedDesign> shippedDesigns() {
             found.push_back({file, file.stem().string(), readDesign(file).description});
         }
     }
+    if (found.empty()) throw std::runtime_error("no designs found (looked in " + searched + ")");
     std::ranges::sort(found, {}, &ShippedDesign::name);
     return found;
 }

@@ -39,7 +39,7 @@ struct ShippedDesign {
     std::string name, description;
 };
 /// All designs of designFolders(), sorted by name; of two with one name, the folder found first.
-/// Throws where one of them cannot be read.
+/// Throws where one of them cannot be read or there is none.
 std::vector<ShippedDesign> shippedDesigns();
 
 /// The file that `--design` means: a path where it exists, has a folder or ends in .json; else the

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // study_app: runs the study's sessions.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "program/progress.h"
@@ -22,7 +24,7 @@ namespace {
 
 struct Options {
     std::string design, data, participant, session, observer, replay;
-    std::uint64_t seed = 0;
+    std::string seed;  // as text: CLI11 reads "-1" as 2^64 - 1
     int observers = 0;
     bool headless = false, listDesigns = false;
 };
@@ -40,6 +42,7 @@ void listDesigns() {
 }
 
 void replay(const std::string& file) {
+    if (file.empty()) throw std::runtime_error("--replay: empty: must name a trial table");
     const study_app::ReplayedSession replayed = study_app::replayTable(file);
     printNotices(replayed.table.notices);
     std::printf("%s: every proposal and threshold of %zu rows derived again, bit for bit\n",
@@ -92,21 +95,49 @@ void simulate(const Options& options, const study_app::SessionRequest& request) 
     std::printf("%zu rows, each synced to the disk, in %.3f s\n", newRows, elapsed.count());
 }
 
-/// What CLI11 cannot say: an option that another one makes necessary.
+// What CLI11 cannot say without crowding --help: which options belong together.
 void require(const CLI::App& app, const char* option) {
     if (app.count(option) == 0) throw CLI::RequiredError(option);
 }
 
+/// An option that a mode does not use is refused, not ignored.
+void requireAlone(const CLI::App& app, const char* mode) {
+    for (const char* option :
+         {"--design", "--data", "--participant", "--session", "--headless", "--observer",
+          "--observers", "--seed", "--replay", "--list-designs"}) {
+        if (std::string_view(option) != mode && app.count(option) > 0) {
+            throw CLI::ExcludesError(mode, option);
+        }
+    }
+}
+
+std::uint64_t readSeed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, seed);
+    if (error == std::errc() && stop == end) return seed;
+    throw CLI::ValidationError("--seed", text + ": must be a whole number from 0 to 2^64 - 1");
+}
+
 void run(const CLI::App& app, const Options& options, std::vector<std::string> command) {
-    if (options.listDesigns) return listDesigns();
-    if (!options.replay.empty()) return replay(options.replay);
+    if (options.listDesigns) {
+        requireAlone(app, "--list-designs");
+        return listDesigns();
+    }
+    if (app.count("--replay") > 0) {
+        requireAlone(app, "--replay");
+        return replay(options.replay);
+    }
     if (!options.headless) {
         throw std::runtime_error(
             "the window for sessions with people is not part of this build: add --headless and "
             "--observer simulated (see --help)");
     }
     for (const char* option : {"--design", "--data", "--observer", "--seed"}) require(app, option);
-    if (options.observers == 0) require(app, "--participant");
+    if (app.count("--observers") > 0 && app.count("--participant") > 0) {
+        throw CLI::ExcludesError("--observers", "--participant");
+    }
+    if (app.count("--observers") == 0) require(app, "--participant");
     if (options.data.empty()) throw std::runtime_error("--data: empty: must name a folder");
 
     study_app::SessionRequest request{
@@ -114,7 +145,7 @@ void run(const CLI::App& app, const Options& options, std::vector<std::string> c
         .participant = options.participant,
         .session = app.count("--session") > 0 ? std::optional(options.session) : std::nullopt,
         .design = study_app::readDesign(study_app::findDesign(options.design)),
-        .seed = options.seed,
+        .seed = readSeed(options.seed),
         .context = records::currentRunContext("study_app", std::move(command))};
     simulate(options, request);
 }
@@ -133,20 +164,19 @@ int main(int argc, char** argv) {
     Options o;
     app.add_option("--design", o.design, "Design file, or the name of a shipped design");
     app.add_option("--data", o.data, "Folder of the data set (BIDS), created where it is missing");
-    auto* participant =
-        app.add_option("--participant", o.participant, "Participant id: letters and digits");
+    app.add_option("--participant", o.participant, "Participant id: letters and digits");
     app.add_option("--session", o.session, "Session id: letters and digits (default: none)");
     app.add_flag("--headless", o.headless, "Run without a window, with a simulated observer");
     app.add_option("--observer", o.observer, "simulated[:key=value,...], see below");
-    app.add_option("--observers", o.observers, "Simulate a whole study: participants 01, 02, ... N")
-        ->check(CLI::Range(1, 9999))
-        ->excludes(participant);
-    app.add_option("--seed", o.seed, "Order, roving and simulated observers follow from it");
-    auto* replayOption = app.add_option(
+    app.add_option("--observers", o.observers,
+                   "Simulate a whole study: participants 01, 02, ... N instead of --participant")
+        ->check(CLI::Range(1, 9999));
+    app.add_option("--seed", o.seed,
+                   "Whole number: order, roving and simulated observers follow from it");
+    app.add_option(
         "--replay", o.replay,
         "Derive a recorded session again from its table and sidecar, compare, print thresholds");
-    auto* list = app.add_flag("--list-designs", o.listDesigns, "Print the shipped designs");
-    list->excludes(replayOption);
+    app.add_flag("--list-designs", o.listDesigns, "Print the shipped designs");
     std::vector<std::string> command(argv, argv + argc);
     return program::run(app, argc, argv, [&] { run(app, o, command); });
 }

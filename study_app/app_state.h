@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The state of the study's window, once, in a plain struct. Screens (screens.h) draw it and say
+// what the person asked for; run_window.cpp acts on that.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study_app/design_file.h"
+#include "study_app/instructions.h"
+#include "study_app/screen_flow.h"
+#include "study_app/session_flags.h"
+#include "study_app/session_runner.h"
+#include "study_app/setup_form.h"
+#include "study_app/viewing_geometry.h"
+
+namespace study_app {
+
+struct SetupState {
+    SetupForm form;
+    std::vector<ShippedDesign> designs;
+    // What follows from the form, found again whenever the form changes:
+    std::optional<SetupForm> lookedUp;
+    ExistingSession existing;
+    std::optional<Design> design;  ///< that the session would have
+    std::vector<std::string> summary;
+    std::vector<std::string> participants;
+    std::string problem;  ///< why a session cannot start
+};
+
+struct CalibrationState {
+    DisplayProfile profile;
+    bool known = false;  ///< this display was calibrated before
+    std::string warnings;
+    double cardWidthPx = 324;  ///< as on a display of 96 pixels per inch
+    bool cardMatched = false;  ///< the observer's own display, not the starting value
+    bool dragging = false;
+    double distanceCm = 60;
+    bool distanceGiven = false;
+    int greyCode = 186;  ///< matches at gamma 2.2
+    bool gammaGiven = false;
+    double luminance = 0;  ///< cd/m2; 0: not measured
+};
+
+struct AppState {
+    Flow flow;
+    Presentation presentation;
+    SetupState setup;
+    CalibrationState calibration;
+    Instructions instructions;
+    std::unique_ptr<SessionRunner> runner;  ///< from the observer's consent on
+    std::string message;                    ///< above the stimulus, or why there is a pause
+    bool messageIsTrouble = false;
+    double restOver = 0;  ///< when the break may end
+    bool practiceOver = false, practiceStuck = false;
+    bool panelShown = false;                ///< experimenter's panel
+    bool resultsShown = false;              ///< on the last screen
+    std::vector<std::size_t> rerunChoices;  ///< conditions that the end offers to run again
+    std::optional<std::size_t> rerun;
+};
+
+}  // namespace study_app

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "study_app/page_parts.h"
+#include "study_app/screens.h"
+
+namespace study_app {
+namespace {
+
+constexpr float kLeastCardPx = 80;
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+    char text[200];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+/// The card's outline, as wide as it was matched. Its right edge follows the mouse.
+void drawCard(CalibrationState& c, const Page& page) {
+    const float widest = ImGui::GetContentRegionAvail().x - page.px(12);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const auto width = static_cast<float>(std::lround(c.cardWidthPx));
+    const auto height =
+        static_cast<float>(std::lround(c.cardWidthPx * kCardHeightMm / kCardWidthMm));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 corner{std::round(at.x), std::round(at.y)};
+    draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, IM_COL32(62, 66, 72, 255),
+                       width * 3.18f / 85.6f);
+    draw.AddRectFilled({corner.x + width - page.px(3), corner.y + page.px(14)},
+                       {corner.x + width, corner.y + height - page.px(14)},
+                       IM_COL32(120, 175, 235, 255));
+    const char* hint = "drag this edge  →";
+    ImFont* font = page.window.fonts().small;
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6f, 0, hint);
+    if (size.x + page.px(24) < width) {
+        draw.AddText(font, font->FontSize,
+                     {corner.x + width - size.x - page.px(12), corner.y + height / 2 - size.y / 2},
+                     IM_COL32(190, 190, 192, 255), hint);
+    }
+    ImGui::SetCursorScreenPos({corner.x + width - page.px(24), corner.y});
+    ImGui::InvisibleButton("edge", {page.px(36), height});
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    }
+    if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0) {
+        c.cardWidthPx = std::round(
+            std::clamp(ImGui::GetIO().MousePos.x - corner.x, page.px(kLeastCardPx), widest));
+        c.cardMatched = true;
+    }
+    ImGui::SetCursorScreenPos({at.x, at.y + height + page.px(10)});
+}
+
+void drawCardColumn(CalibrationState& c, const Page& page) {
+    ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Size of a pixel");
+    faint(page,
+          "Hold a bank card against the screen and drag the right edge until the sizes agree.");
+    ImGui::Dummy({0, page.px(4)});
+    drawCard(c, page);
+    const auto nudge = [&](const char* text, double by) {
+        if (ImGui::Button(text)) {
+            c.cardWidthPx += by;
+            c.cardMatched = true;
+        }
+        ImGui::SameLine();
+    };
+    nudge("−1 px", -1);
+    nudge("+1 px", 1);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(c.cardMatched ? formatted("%.0f px, %.3f px/mm", c.cardWidthPx,
+                                                     pxPerMmFromCard(c.cardWidthPx))
+                                               .c_str()
+                                         : "not matched yet");
+}
+
+cv::Mat gammaPattern(int edgePx, int greyCode) {
+    cv::Mat codes(edgePx, 2 * edgePx, CV_8UC1);
+    for (int row = 0; row < edgePx; ++row) {
+        codes.row(row).colRange(0, edgePx).setTo(row % 2 == 0 ? 255 : 0);
+        codes.row(row).colRange(edgePx, 2 * edgePx).setTo(greyCode);
+    }
+    return codes;
+}
+
+void drawGamma(CalibrationState& c, const Page& page) {
+    ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Gamma");
+    faint(page, "From a step back, move the slider until both halves are equally bright.");
+    image(page, gammaPattern(static_cast<int>(page.px(104)), c.greyCode));
+    ImGui::SameLine(0, page.px(16));
+    ImGui::BeginGroup();
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderInt("##grey", &c.greyCode, 128, 232, "code %d")) c.gammaGiven = true;
+    ImGui::TextUnformatted(c.gammaGiven
+                               ? formatted("gamma %.2f", gammaFromGreyCode(c.greyCode)).c_str()
+                               : "not matched yet");
+    ImGui::EndGroup();
+}
+
+void drawDistance(CalibrationState& c, const Page& page) {
+    ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Viewing distance and luminance");
+    ImGui::SetNextItemWidth(page.px(190));
+    if (ImGui::InputDouble("##distance", &c.distanceCm, 1, 5, "%.0f cm from the eye")) {
+        c.distanceCm = std::clamp(c.distanceCm, 5.0, 5000.0);
+        c.distanceGiven = true;
+    }
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputDouble("##luminance", &c.luminance, 0, 0,
+                       c.luminance > 0 ? "white: %.1f cd/m2" : "white: not measured");
+    c.luminance = std::clamp(c.luminance, 0.0, 100000.0);
+}
+
+/// What the design's steps are to the eye.
+void drawAngles(const AppState& state, const Page& page) {
+    const CalibrationState& c = state.calibration;
+    if (!c.cardMatched) {
+        faint(page, "Visual angles follow once the card is matched.");
+        return;
+    }
+    const double pxPerMm = pxPerMmFromCard(c.cardWidthPx), distanceMm = 10 * c.distanceCm;
+    paragraph(formatted("%.1f px per degree; one pixel is %.2f arc minutes",
+                        pxPerDeg(pxPerMm, distanceMm), arcMinutes(1, pxPerMm, distanceMm)));
+    if (!state.setup.design) return;
+    std::string sizes = "Steps of ";
+    for (const int a : state.setup.design->artifactPx) {
+        if (sizes.size() > 9) sizes += ", ";
+        sizes += formatted("%d px: %.1f'", a, arcMinutes(a, pxPerMm, distanceMm));
+    }
+    const int window = state.setup.design->windowPx;
+    faint(page, sizes);
+    faint(page, formatted("The stimulus is %d px, %.1f° wide.", window,
+                          arcMinutes(window, pxPerMm, distanceMm) / 60));
+}
+
+}  // namespace
+
+std::optional<Request> drawCalibration(AppState& state, const Page& page) {
+    beginPage(page, "Display", 1080);
+    CalibrationState& c = state.calibration;
+    faint(page, c.profile.name + ", " + std::to_string(c.profile.widthPx) + " x " +
+                    std::to_string(c.profile.heightPx) +
+                    (c.known ? ": calibrated before. Check it where anything has changed."
+                             : ": not calibrated yet."));
+    if (!c.warnings.empty()) warning(c.warnings);
+    ImGui::Dummy({0, page.px(10)});
+    const float left = std::floor(ImGui::GetContentRegionAvail().x * 0.5f);
+    ImGui::BeginChild("card", {left - page.px(16), 0}, false, ImGuiWindowFlags_NoBackground);
+    drawCardColumn(c, page);
+    ImGui::EndChild();
+    ImGui::SameLine(0, page.px(32));
+    ImGui::BeginChild("more", {0, 0}, false, ImGuiWindowFlags_NoBackground);
+    drawDistance(c, page);
+    ImGui::Dummy({0, page.px(4)});
+    drawAngles(state, page);
+    ImGui::Dummy({0, page.px(14)});
+    drawGamma(c, page);
+    ImGui::EndChild();
+    const std::string note = c.cardMatched && c.distanceGiven && c.gammaGiven
+                                 ? ""
+                                 : "What is not measured is recorded as unknown.";
+    const auto pressed = endPage(page, {.primary = "Continue", .secondary = "Back", .note = note});
+    if (pressed == Pressed::primary) return Request::next;
+    if (pressed == Pressed::secondary) return Request::back;
+    return {};
+}
+
+}  // namespace study_app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// What an experimenter should look at when a session is over: thresholds with intervals, catch
+// performance, and flags by rules that were fixed before any threshold is seen.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study_app/session.h"
+
+namespace study_app {
+
+/// Share of a staircase's trials at a display limit above which its threshold is a bound, not a
+/// measurement.
+inline constexpr double kLimitShare = 0.3;
+/// Posterior sd, log10 units, above which a staircase has not converged: its 95 % interval is then
+/// wider than a factor of 1.6 to either side.
+inline constexpr double kConvergedSd = 0.10;
+/// METHODS section 5: catch failures in 2AFC, lower 95 % bound of the false alarms in yes/no.
+inline constexpr double kCatchFailures2afc = 0.20, kFalseAlarmBound = 0.10;
+
+struct ConditionResult {
+    Threshold threshold;
+    double cLow = 0, cHigh = 0;  ///< central 95 % of the posterior
+    double limitShare = 0;       ///< of the trials shown at the least or the largest radius
+    bool atLimit = false, notConverged = false;
+    bool flagged() const { return atLimit || notConverged; }
+};
+
+struct CatchResult {
+    int answered = 0, failed = 0;
+    double lowerBound = 0;  ///< of the failure rate, one-sided 97.5 % (Wilson 1927)
+    bool flagged = false;
+};
+
+std::vector<ConditionResult> conditionResults(const Session& session);
+CatchResult catchResult(const Session& session);
+
+/// "stuck at a display limit (12 of 15 trials)", "not converged (sd .14)"; empty without a flag.
+std::string flagText(const ConditionResult& result);
+
+/// The design with this condition alone, for a rerun as a session of its own.
+Design rerunDesign(const Design& design, std::size_t condition);
+
+}  // namespace study_app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// A session with a person, without a window: practice and trials in time, rows to disk, breaks,
+// undo, the stimuli that come next computed ahead. The window asks what to draw and passes on what
+// was pressed and when.
+//
+//   SessionRunner runner(request, presentation);
+//   runner.begin(SessionRunner::Stage::practice, now);
+//   if (auto event = runner.tick(now)) ...                   // finished, break due, ...
+//   if (runner.stimulusDue(now)) { draw(runner.images()); runner.shown(timeOfSwap); }
+//   if (auto event = runner.answer(Side::left, timeOfPress)) ...
+//
+// A row is on disk before the next trial begins.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study_app/practice.h"
+#include "study_app/presentation.h"
+#include "study_app/recorded_session.h"
+#include "study_app/trial_clock.h"
+#include "study_app/trial_stimulus.h"
+
+namespace study_app {
+
+enum class RunnerEvent {
+    nextTrial,  ///< a trial has ended, the blank before the next one is on
+    feedback,   ///< right or wrong is shown
+    breakDue,
+    practiceOver,   ///< its rule is met
+    practiceStuck,  ///< enough tried in vain
+    finished,
+    notRecorded,  ///< problem() says why; the trial comes again
+};
+
+/// The two answers: arrow keys, or halves of the window. In yes/no left is no, right is yes.
+enum class Side { left, right };
+records::Response responseFor(Side side, records::Task task);
+
+class SessionRunner {
+  public:
+    enum class Stage { practice, session };
+
+    /// Starts or resumes the session. Throws what RecordedSession throws.
+    SessionRunner(const SessionRequest& request, const Presentation& presentation);
+
+    const Session& session() const { return recorded_->session(); }
+    const RecordedSession& recorded() const { return *recorded_; }
+    const SessionRequest& request() const { return request_; }
+    const Presentation& presentation() const { return presentation_; }
+    const Practice& practice() const { return practice_; }
+    bool practiceNeeded() const;
+    void startPracticeAgain() { practice_.startAgain(); }
+
+    /// The next trial, from its blank on. A break that was taken is over with it.
+    void begin(Stage stage, double now);
+    /// Another screen is shown. A stimulus on screen is not seen as it should be: its row is
+    /// recorded as repeated. Returns whether there was one, or what went wrong.
+    bool interrupt();
+
+    TrialPhase phase() const { return clock_.phase(); }
+    Stage stage() const { return stage_; }
+    std::optional<RunnerEvent> tick(double now);
+    bool stimulusDue(double now) const { return clock_.stimulusDue(now); }
+    void shown(double now);
+    std::optional<RunnerEvent> answer(Side side, double now);
+    double secondsUntilChange(double now) const { return clock_.secondsUntilChange(now); }
+
+    /// The trial that comes next or is on screen, and its codes.
+    records::Trial trial() const;
+    const TrialImages& images();
+
+    bool lastRight() const { return lastRight_; }      ///< of the answer that feedback is about
+    bool lastTooFast() const { return lastTooFast_; }  ///< the trial before was answered too fast
+    bool lastTimedOut() const { return lastTimedOut_; }
+
+    /// One answer can be taken back, the last one of this sitting.
+    bool canUndo() const { return undoable_; }
+    /// Returns false where the marks could not be written: problem() says why, nothing is undone.
+    bool undo();
+
+    double secondsLeft() const;
+    /// Every row of the table, of any status.
+    const std::vector<records::Trial>& rows() const { return rows_; }
+    const std::string& problem() const { return problem_; }
+
+    /// From the last answer to the swap of the next stimulus, less what was intended; seconds.
+    const std::vector<double>& latencies() const { return latencies_; }
+
+  private:
+    std::optional<RunnerEvent> take(const Outcome& outcome, double now);
+    std::optional<RunnerEvent> record(const Outcome& outcome);
+    std::optional<RunnerEvent> proceed(double now);
+    void takeInPractice(const Outcome& outcome);
+    void notePace(double now);
+    void reopen();
+
+    SessionRequest request_;
+    Presentation presentation_;
+    std::unique_ptr<RecordedSession> recorded_;
+    Practice practice_;
+    TrialClock clock_;
+    StimulusPrefetcher prefetcher_;
+    Stage stage_ = Stage::practice;
+    std::optional<TrialImages> images_;
+    double sessionStart_;  // on the clock of `now`, so that onsets go on from the last row's
+    bool clockStarted_ = false;
+    int sinceBreak_ = 0;
+    bool lastRight_ = false, lastTooFast_ = false, lastTimedOut_ = false, undoable_ = false;
+    std::deque<double> paceS_;  // of the last trials
+    std::optional<double> lastAnswer_, answerPending_;
+    std::vector<records::Trial> rows_;
+    std::vector<double> latencies_;
+    std::string problem_;
+};
+
+}  // namespace study_app

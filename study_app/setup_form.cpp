@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "study_app/setup_form.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+
+#include "quest/quest.h"
+#include "records/quoted_text.h"
+#include "records/session_sidecar.h"
+#include "study_app/design_file.h"
+
+namespace study_app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Chosen by eye from the human tables: a median answer takes about a second.
+constexpr double kTypicalAnswerS = 1.2;
+
+std::optional<std::string> sessionOf(const SetupForm& form) {
+    return form.session.empty() ? std::nullopt : std::optional(form.session);
+}
+
+fs::path tableOf(const SetupForm& form) {
+    return records::trialTablePath(form.dataFolder, form.participant, sessionOf(form));
+}
+
+bool isId(const std::string& text) {
+    return std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) != 0; });
+}
+
+std::optional<std::uint64_t> seedFrom(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, seed);
+    return error == std::errc() && stop == end ? std::optional(seed) : std::nullopt;
+}
+
+template <typename List, typename ToText>
+std::string joined(const List& list, ToText toText) {
+    std::string text;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (i > 0) text += i + 1 == list.size() ? " and " : ", ";
+        text += toText(list[i]);
+    }
+    return text;
+}
+
+std::string describe(const Silhouette& s) {
+    std::string text(records::toText(s.pattern));
+    if (s.angleDeg) text += " at " + records::exactText(*s.angleDeg) + "°";
+    if (s.orientation == Orientation::horizontal) text = "horizontal " + text;
+    if (s.orientation == Orientation::vertical) text = "vertical " + text;
+    return text;
+}
+
+std::string plural(std::size_t count, const std::string& noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string describeTable(const fs::path& table) {
+    try {
+        const Session session = replayTable(table).session;
+        if (session.finished()) return "finished";
+        return std::to_string(session.answered()) + " of " + std::to_string(session.total()) +
+               " trials";
+    } catch (const std::exception&) {
+        return "cannot be resumed";
+    }
+}
+
+}  // namespace
+
+ExistingSession findExisting(const SetupForm& form) {
+    ExistingSession existing;
+    if (form.participant.empty() || !isId(form.participant) || !isId(form.session)) return existing;
+    const fs::path table = tableOf(form);
+    if (!fs::exists(table)) return existing;
+    try {
+        const ReplayedSession replayed = replayTable(table);
+        existing.answered = replayed.session.answered();
+        existing.total = replayed.session.total();
+        existing.design = replayed.session.design();
+        existing.seed = replayed.session.seed();
+        existing.state = replayed.session.finished() ? ExistingSession::State::finished
+                                                     : ExistingSession::State::unfinished;
+    } catch (const std::exception& error) {
+        existing.state = ExistingSession::State::unusable;
+        existing.problem = error.what();
+    }
+    return existing;
+}
+
+std::vector<std::string> describeParticipants(const fs::path& dataFolder, std::size_t most) {
+    std::vector<std::string> lines;
+    std::error_code ignored;  // no folder yet, no participants
+    if (!fs::is_directory(dataFolder, ignored)) return lines;
+    std::vector<fs::path> tables;
+    try {
+        tables = records::findTrialTables(dataFolder);
+    } catch (const std::runtime_error&) {
+        return lines;
+    }
+    for (const fs::path& table : tables) {
+        if (lines.size() == most) {
+            lines.push_back("and " + std::to_string(tables.size() - most) + " more");
+            break;
+        }
+        std::string name = table.filename().string();
+        name.resize(std::min(name.find("_task-"), name.size()));
+        if (name.starts_with("sub-")) name.erase(0, 4);
+        if (const auto session = name.find("_ses-"); session != name.npos) {
+            name.replace(session, 5, ", session ");
+        }
+        lines.push_back(name + ": " + describeTable(table));
+    }
+    return lines;
+}
+
+Design withTask(Design design, records::Task task) {
+    if (design.task == task) return design;
+    quest::QuestParameters& q = design.staircase;
+    const double criterion = quest::criterion(q);
+    if (task == records::Task::yesNo) {
+        q = quest::forYesNo(q, kYesNoGamma);
+    } else {
+        q.gamma = 0.5;
+        q.pThreshold = quest::thresholdProbability(criterion, q.gamma, q.delta);
+    }
+    design.task = task;
+    return design;
+}
+
+Design designOf(const SetupForm& form) {
+    const Design design = readDesign(findDesign(form.design));
+    return form.task ? withTask(design, *form.task) : design;
+}
+
+double expectedMinutes(const Design& design, const Presentation& p) {
+    const double trials = totalTrials(design);
+    const double breaks =
+        p.breakEveryTrials > 0 ? std::floor((trials - 1) / p.breakEveryTrials) : 0;
+    const double trialS = p.blankS + p.fixationS + kTypicalAnswerS + (p.feedback ? p.feedbackS : 0);
+    return (trials * trialS + breaks * p.breakMinimumS) / 60;
+}
+
+std::vector<std::string> describeDesign(const Design& d, const Presentation& presentation) {
+    const auto number = [](auto value) { return records::exactText(static_cast<double>(value)); };
+    const auto itself = [](const std::string& text) { return text; };
+    std::vector<std::string> lines;
+    lines.push_back(d.task == records::Task::twoAfc
+                        ? "Two edges side by side; which one has stair-steps?"
+                        : "One edge at a time; does it have stair-steps?");
+    lines.push_back(plural(conditions(d).size(), "condition") + ": steps of " +
+                    joined(d.artifactPx, number) + " px; " + joined(d.patterns, describe) + "; " +
+                    joined(d.kernels, itself) + " filter; lit level " +
+                    joined(d.litLevels, number));
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "%d trials (%d per condition, %d to check attention), about %.0f minutes",
+                  totalTrials(d), d.trialsPerCondition, catchTrials(d),
+                  std::max(1.0, expectedMinutes(d, presentation)));
+    lines.emplace_back(text);
+    return lines;
+}
+
+std::string missing(const SetupForm& form) {
+    if (form.dataFolder.empty()) return "Choose the folder in which the data set lies.";
+    if (form.participant.empty()) return "Give the participant an id.";
+    if (!isId(form.participant)) return "The participant's id may hold letters and digits only.";
+    if (!isId(form.session)) return "The session's id may hold letters and digits only.";
+    if (!form.seed.empty() && !seedFrom(form.seed)) return "The seed must be a whole number.";
+    if (!form.age.empty()) {
+        double age = 0;
+        const char* const end = form.age.data() + form.age.size();
+        const auto [stop, error] = std::from_chars(form.age.data(), end, age);
+        if (error != std::errc() || stop != end || !(age >= 0 && age <= 150)) {
+            return "The age must be a number of years.";
+        }
+    }
+    return {};
+}
+
+SessionRequest requestFrom(const SetupForm& form, const ExistingSession& existing,
+                           const DisplayProfile& display, std::uint64_t freshSeed,
+                           const records::RunContext& context) {
+    if (const std::string problem = missing(form); !problem.empty()) {
+        throw std::runtime_error(problem);
+    }
+    if (existing.state == ExistingSession::State::unusable) {
+        throw std::runtime_error(existing.problem);
+    }
+    return {.dataFolder = form.dataFolder,
+            .participant = form.participant,
+            .session = sessionOf(form),
+            .observer = "human",
+            .design = existing.design ? *existing.design : designOf(form),
+            .seed = existing.design ? existing.seed : seedFrom(form.seed).value_or(freshSeed),
+            .displayWidthPx = display.widthPx,
+            .displayHeightPx = display.heightPx,
+            .context = context,
+            .pxPerDeg = pxPerDeg(display),
+            .displayGamma = display.gamma,
+            .luminanceCdM2 = display.luminanceCdM2};
+}
+
+}  // namespace study_app

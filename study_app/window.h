@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The window: GLFW, an OpenGL 3.3 core context and Dear ImGui, as one resource. It sleeps until
+// something happens, draws when asked, and hands out what a person did as plain values.
+//
+//   Window window({.widthPx = 1280, .heightPx = 800});
+//   while (!window.input().closeRequested) {
+//       window.waitForEvents(secondsUntilSomethingChanges);
+//       window.beginFrame();  ... ImGui, GL ...  window.endFrame();
+//   }
+//
+// Codes reach the framebuffer as they are: no sRGB conversion, dithering or multisampling.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study_app/viewing_geometry.h"
+
+struct GLFWwindow;
+struct ImFont;
+
+namespace study_app {
+
+struct WindowOptions {
+    int widthPx = 1280, heightPx = 800;
+    bool fullscreen = false;
+    std::optional<double> uiScale;  ///< of text and controls; the desktop's where absent
+};
+
+/// What happened since the last clear(), in order.
+struct Input {
+    struct Click {
+        double xPx = 0, yPx = 0;  ///< framebuffer pixels from the top left
+    };
+    struct Press {
+        int key = 0;  ///< GLFW_KEY_...; GLFW_KEY_UNKNOWN for a click
+        Click click{};
+    };
+    std::vector<Press> presses;  ///< keys (no repeats) and left clicks
+    /// Why a stimulus on screen was not seen as it should be; empty where it was.
+    std::string disturbance;
+    bool closeRequested = false;
+
+    void clear() { *this = {.closeRequested = closeRequested}; }
+};
+
+struct Fonts {
+    ImFont* text = nullptr;
+    ImFont* heading = nullptr;
+    ImFont* small = nullptr;
+};
+
+class Window {
+  public:
+    /// Throws std::runtime_error: no display, no OpenGL 3.3.
+    explicit Window(const WindowOptions& options);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// Seconds of a clock that never goes back.
+    static double now();
+
+    /// Sleeps until an event comes or the time is over; 0 looks without sleeping.
+    void waitForEvents(double seconds);
+    Input& input() { return input_; }
+
+    /// Clears to a grey and starts an ImGui frame.
+    void beginFrame(int greyCode);
+    /// Draws ImGui's part and swaps. Returns the time at which the swap was done (glFinish after
+    /// it: the frame has left the program; the display adds its own delay, the same every time).
+    double endFrame();
+    /// Draws ImGui's part without swapping, for reading pixels back first. endFrame() then swaps.
+    void renderInterface();
+
+    int widthPx() const;
+    int heightPx() const;
+    float uiScale() const { return uiScale_; }
+    const Fonts& fonts() const { return fonts_; }
+    bool focused() const;
+    void showCursor(bool shown);
+
+    DisplayState displayState() const;
+    DisplayProfile monitor() const;  ///< name and resolution of the monitor it stands on
+    std::string glRenderer() const;
+    std::string glVersion() const;
+    /// What the person who set it up should hear about: fonts that are missing.
+    const std::vector<std::string>& notices() const { return notices_; }
+
+    /// The frame as drawn so far: CV_8UC3, BGR, row 0 on top.
+    cv::Mat readPixels() const;
+
+  private:
+    void openContext(const WindowOptions& options);
+    void listen();
+    void startInterface();
+    void loadFonts();
+
+    GLFWwindow* window_ = nullptr;
+    Input input_;
+    Fonts fonts_;
+    float uiScale_ = 1;
+    bool interfaceDrawn_ = false;
+    bool cursorShown_ = true;
+    std::vector<std::string> notices_;
+};
+
+}  // namespace study_app

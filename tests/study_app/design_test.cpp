@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: MIT
+#include "study_app/design.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "quest/random.h"
+#include "records/json_document.h"
+#include "study_app/design_file.h"
+#include "study_app/random_stream.h"
+#include "tests/study_app/test_designs.h"
+
+namespace {
+
+using nlohmann::json;
+using study_app::Design;
+using testing::AllOf;
+using testing::HasSubstr;
+
+json smallDesign() {
+    return {{"schema", {{"name", "stairwell design"}, {"major", 1}, {"minor", 0}}},
+            {"name", "small"},
+            {"artifact_px", {10, 20}},
+            {"patterns", {"stair", "step"}},
+            {"trials_per_condition", 5}};
+}
+
+std::string errorOf(const json& design) {
+    try {
+        study_app::designFromJson(design, "small.json");
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+json patched(const std::string& pointer, const json& value) {
+    json design = smallDesign();
+    design[json::json_pointer(pointer)] = value;
+    return design;
+}
+
+json without(const std::string& key) {
+    json design = smallDesign();
+    design.erase(key);
+    return design;
+}
+
+struct BadDesign {
+    const char* claim;
+    json design;
+    std::vector<std::string> parts;  // of the sentence: field, value, rule
+};
+
+std::vector<BadDesign> badDesigns() {
+    const json line = {{"pattern", "line"}},
+               turned = {{"pattern", "stair"}, {"orientation", "vertical"}};
+    const auto lineAt = [](json angle) {
+        return json::array({{{"pattern", "line"}, {"angle_deg", angle}}});
+    };
+    return {
+        {"UnknownField", patched("/trails", 5), {"field trails", "unknown"}},
+        {"UnknownQuestField", patched("/quest", {{"betta", 3}}), {"quest.betta", "unknown"}},
+        {"UnknownPatternField",
+         patched("/patterns/0", {{"pattern", "stair"}, {"angel", 3}}),
+         {"patterns[0].angel"}},
+        {"UnknownRadiusField", patched("/radius_px", {{"low", 3}}), {"radius_px.low"}},
+        {"UnknownRovingField", patched("/roving", {{"turn", true}}), {"roving.turn"}},
+        {"NoObject", json::array(), {"must be an object"}},
+        {"NoSchema", without("schema"), {"field schema"}},
+        {"OtherSchema",
+         patched("/schema/name", "stairwell slope"),
+         {"schema.name", "stairwell design"}},
+        {"NewerMajor", patched("/schema/major", 2), {"schema.major", "2"}},
+        {"NoName", without("name"), {"field name"}},
+        {"EmptyName", patched("/name", ""), {"field name"}},
+        {"NameOfTwoLines", patched("/name", "a\nb"), {"field name", "one line"}},
+        {"NoSizes", without("artifact_px"), {"artifact_px"}},
+        {"NoPatterns", without("patterns"), {"patterns"}},
+        {"NoTrials", without("trials_per_condition"), {"trials_per_condition"}},
+        {"EmptySizes", patched("/artifact_px", json::array()), {"artifact_px", "no conditions"}},
+        {"EmptyPatterns", patched("/patterns", json::array()), {"patterns", "no conditions"}},
+        {"EmptyLitLevels", patched("/lit_levels", json::array()), {"lit_levels", "no conditions"}},
+        {"EmptyKernels", patched("/kernels", json::array()), {"kernels", "no conditions"}},
+        {"SizeZero", patched("/artifact_px/1", 0), {"artifact_px[1]", "0", "at least 1"}},
+        {"SizeNegative", patched("/artifact_px/0", -5), {"artifact_px[0]", "-5"}},
+        {"SizeBetweenPixels",
+         patched("/artifact_px/0", 5.5),
+         {"artifact_px[0]", "5.5", "whole number"}},
+        {"SizeAsText", patched("/artifact_px/0", "5"), {"artifact_px[0]", "\"5\"", "number"}},
+        {"SizeNull", patched("/artifact_px/0", nullptr), {"artifact_px[0]", "null"}},
+        {"SizesNoArray", patched("/artifact_px", 5), {"artifact_px", "array"}},
+        {"SizeOfHalfTheWindow",
+         patched("/artifact_px/0", 300),
+         {"artifact_px[0]", "300", "window_px"}},
+        {"SizeTwice",
+         patched("/artifact_px/1", 10),
+         {"artifact_px[1]", "artifact_px[0]", "only once"}},
+        {"HugeSize", patched("/artifact_px/0", 1e300), {"artifact_px[0]"}},
+        {"UnknownPattern",
+         patched("/patterns/0", "stairs"),
+         {"patterns[0].pattern", "\"stairs\"", "stair, step, line"}},
+        {"FramePattern",
+         patched("/patterns/0", "frame"),
+         {"patterns[0].pattern", "stair, step, line"}},
+        {"PatternNumber", patched("/patterns/0", 45), {"patterns[0]", "45"}},
+        {"PatternsNoArray", patched("/patterns", "stair"), {"patterns", "array"}},
+        {"PatternTwice",
+         patched("/patterns/1", {{"pattern", "stair"}}),
+         {"patterns[1]", "patterns[0]"}},
+        {"LineWithoutAngle", patched("/patterns/0", line), {"patterns[0].angle_deg", "missing"}},
+        {"LineAt45", patched("/patterns", lineAt(45)), {"patterns[0].angle_deg", "45"}},
+        {"LineAt0",
+         patched("/patterns", lineAt(0)),
+         {"patterns[0].angle_deg", "0", "greater than 0"}},
+        {"AngleAsText", patched("/patterns", lineAt("20")), {"patterns[0].angle_deg", "\"20\""}},
+        {"StairWithAngle",
+         patched("/patterns/0", {{"pattern", "stair"}, {"angle_deg", 45}}),
+         {"patterns[0].angle_deg", "only a line"}},
+        {"StairWithDirection",
+         patched("/patterns/0", turned),
+         {"patterns[0].orientation", "vertical"}},
+        {"UnknownDirection",
+         patched("/patterns/1", {{"pattern", "step"}, {"orientation", "up"}}),
+         {"patterns[1].orientation", "\"up\""}},
+        {"LitLevelZero", patched("/lit_levels", {0}), {"lit_levels[0]", "0"}},
+        {"LitLevelNegative", patched("/lit_levels", {1, -0.1}), {"lit_levels[1]", "-0.1"}},
+        {"LitLevelAboveOne", patched("/lit_levels", {1.01}), {"lit_levels[0]", "1.01"}},
+        {"LitLevelTwice",
+         patched("/lit_levels", {1, 0.5, 1.0}),
+         {"lit_levels[2]", "lit_levels[0]"}},
+        {"UnknownKernel",
+         patched("/kernels", {"disk"}),
+         {"kernels[0]", "\"disk\"", "disc, box, gaussian"}},
+        {"KernelTwice", patched("/kernels", {"box", "box"}), {"kernels[1]"}},
+        {"UnknownTask", patched("/task", "3afc"), {"task", "2afc, yes_no"}},
+        {"TaskNumber", patched("/task", 2), {"task", "2"}},
+        {"UnknownEncoding", patched("/encoding", "linear"), {"encoding", "srgb, code"}},
+        {"WindowFraction", patched("/window_px", 600.5), {"window_px", "600.5", "whole number"}},
+        {"WindowZero", patched("/window_px", 0), {"window_px", "0"}},
+        {"WindowPair", patched("/window_px", {800, 600}), {"window_px"}},
+        {"NoTrial", patched("/trials_per_condition", 0), {"trials_per_condition", "0", "from 1"}},
+        {"TrialsFraction", patched("/trials_per_condition", 2.5), {"trials_per_condition", "2.5"}},
+        {"TrialsBeyondInt",
+         patched("/trials_per_condition", 3000000000u),
+         {"trials_per_condition"}},
+        {"TrialsInAll",
+         patched("/trials_per_condition", 90000),
+         {"trials_per_condition", "90000", "360000"}},
+        {"CatchShareNegative", patched("/catch_share", -0.1), {"catch_share", "-0.1"}},
+        {"CatchShareAboveHalf", patched("/catch_share", 0.51), {"catch_share", "0.51", "0.5"}},
+        {"RadiusStepOdd", patched("/radius_px", {{"step", 0.3}}), {"radius_px.step", "0.3"}},
+        {"MinAboveMax",
+         patched("/radius_px", {{"min", 100}, {"max", 80}}),
+         {"radius_px.min", "100", "80"}},
+        {"MinIsMax", patched("/radius_px", {{"min", 80}, {"max", 80}}), {"radius_px.min", "80"}},
+        {"MinZero", patched("/radius_px", {{"min", 0}}), {"radius_px.min", "0", "greater than 0"}},
+        {"MinOffTheGrid",
+         patched("/radius_px", {{"min", 1.1}}),
+         {"radius_px.min", "1.1", "multiple"}},
+        {"MaxOffTheGrid",
+         patched("/radius_px", {{"max", 100.5}, {"step", 1}}),
+         {"radius_px.max", "100.5"}},
+        {"MaxBeyondWindow",
+         patched("/radius_px", {{"max", 601}}),
+         {"radius_px.max", "601", "window_px"}},
+        {"GuessAboveMax",
+         patched("/radius_px", {{"max", 50}}),
+         {"quest.guess_ratio", "3", "60", "artifact_px 20"}},
+        {"GuessBelowMin",
+         patched("/quest", {{"guess_ratio", 0.03}}),
+         {"quest.guess_ratio", "0.03", "artifact_px 10"}},
+        {"GuessZero", patched("/quest", {{"guess_ratio", 0}}), {"quest.guess_ratio", "0"}},
+        {"UnknownPreset", patched("/quest", "papers"), {"field quest", "default, paper"}},
+        {"UnknownPresetInside",
+         patched("/quest", {{"preset", "x"}}),
+         {"quest.preset", "default, paper"}},
+        {"QuestNumber", patched("/quest", 3), {"field quest", "3"}},
+        {"PriorSdZero", patched("/quest", {{"prior_sd", 0}}), {"quest.prior_sd", "0"}},
+        {"PriorSdBelowGrain", patched("/quest", {{"prior_sd", 0.0001}}), {"priorSd", "0.0001"}},
+        {"BetaNegative", patched("/quest", {{"beta", -3.5}}), {"quest.beta", "-3.5"}},
+        {"GrainZero", patched("/quest", {{"grain", 0}}), {"quest.grain"}},
+        {"GrainTooFine", patched("/quest", {{"grain", 1e-9}, {"range", 6}}), {"quest", "1000000"}},
+        {"RangeZero", patched("/quest", {{"range", 0}}), {"quest.range", "0"}},
+        {"RangeTooNarrow",
+         patched("/quest", {{"range", 1}}),
+         {"quest.range", "1", "radius_px", "at least 3.6"}},
+        {"DeltaOne", patched("/quest", {{"delta", 1}}), {"quest.delta", "1"}},
+        {"DeltaNegative", patched("/quest", {{"delta", -0.01}}), {"quest.delta", "-0.01"}},
+        {"GammaOf2afc", patched("/quest", {{"gamma", 0.3}}), {"quest.gamma", "0.3", "2afc"}},
+        {"CriterionBelowCurve",
+         patched("/quest", {{"threshold_probability", 0.5}}),
+         {"quest.threshold_probability", "0.5", "inside the curve"}},
+        {"CriterionAboveCurve",
+         patched("/quest", {{"threshold_probability", 0.995}}),
+         {"quest.threshold_probability", "0.995", "0.99"}},
+        {"RovingText", patched("/roving", "yes"), {"roving", "\"yes\""}},
+        {"RovingNumber", patched("/roving", {{"tilt", 1}}), {"roving.tilt", "1"}},
+    };
+}
+
+TEST(Design, RefusesContradictionsWithFieldValueAndRule) {
+    for (const BadDesign& bad : badDesigns()) {
+        const std::string error = errorOf(bad.design);
+        EXPECT_THAT(error, HasSubstr("small.json")) << bad.claim;
+        for (const std::string& part : bad.parts) EXPECT_THAT(error, HasSubstr(part)) << bad.claim;
+    }
+}
+
+TEST(Design, TakesTheSmallestFile) {
+    EXPECT_EQ(errorOf(smallDesign()), "no error");
+}
+
+TEST(Design, ConstructedInCodeIsHeldToTheSameRules) {
+    Design design = tests::variedDesign(records::Task::twoAfc);
+    EXPECT_EQ(study_app::validate(design), "");
+    design.catchShare = std::nan("");
+    EXPECT_THAT(study_app::validate(design), HasSubstr("catch_share: nan"));
+    design = tests::variedDesign(records::Task::twoAfc);
+    design.patterns[0].pattern = records::Pattern::frame;
+    EXPECT_THAT(study_app::validate(design), HasSubstr("patterns[0]"));
+}
+
+TEST(Design, LocatesABrokenFile) {
+    EXPECT_THROW(study_app::readDesign("/nowhere/design.json"), std::runtime_error);
+    try {
+        study_app::designFromJson(records::parseJson("{\n  \"name\": }", "broken.json"),
+                                  "broken.json");
+        FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("broken.json"), HasSubstr("line 2")));
+    }
+}
+
+TEST(ShippedDesigns, ReadAndAreNamedAsTheirFiles) {
+    for (const char* name : {"paper16", "paper24", "quick"}) {
+        EXPECT_EQ(tests::shippedDesign(name).name, name);
+    }
+}
+
+TEST(ShippedDesigns, PaperHasItsSixteenConditions) {
+    const Design design = tests::shippedDesign("paper16");
+    EXPECT_EQ(study_app::conditions(design).size(), 16u);
+    EXPECT_EQ(study_app::totalTrials(design), 640);
+    EXPECT_EQ(design.encoding, records::Encoding::code);
+    const quest::QuestParameters q = study_app::staircaseParameters(design);
+    EXPECT_EQ(q, [] {
+        quest::QuestParameters paper = quest::kPaperParameters;
+        paper.priorMean = -std::log10(3.0);
+        return paper;
+    }());
+    EXPECT_EQ(q.pThreshold, 0.82);
+    EXPECT_NEAR(quest::criterion(q), quest::kPaperCriterion, 1e-15);  // rounding of one division
+}
+
+TEST(ShippedDesigns, Paper24AddsTheStepInTheSecondDirection) {
+    std::set<std::string> names;
+    int vertical = 0, horizontal = 0;
+    for (const study_app::Condition& c : study_app::conditions(tests::shippedDesign("paper24"))) {
+        names.insert(c.name);
+        vertical += c.silhouette.orientation == study_app::Orientation::vertical;
+        horizontal += c.silhouette.orientation == study_app::Orientation::horizontal;
+    }
+    EXPECT_EQ(names.size(), 24u);
+    EXPECT_EQ(vertical, 8);
+    EXPECT_EQ(horizontal, 8);
+}
+
+TEST(ShippedDesigns, AreFoundBesideTheProgramsByName) {
+    std::vector<std::string> names;
+    for (const study_app::ShippedDesign& d : study_app::shippedDesigns()) names.push_back(d.name);
+    EXPECT_THAT(names, testing::ElementsAre("paper16", "paper24", "quick"));
+    EXPECT_EQ(study_app::readDesign(study_app::findDesign("quick")), tests::shippedDesign("quick"));
+}
+
+TEST(ShippedDesigns, AreLookedForWhereTheEnvironmentSays) {
+    setenv("STAIRWELL_DATA", "/nowhere", 1);
+    try {
+        study_app::findDesign("quick");
+        FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("/nowhere/designs/quick.json"));
+    }
+    EXPECT_THROW(study_app::shippedDesigns(), std::runtime_error);
+    unsetenv("STAIRWELL_DATA");
+}
+
+TEST(Design, FillsInDefaults) {
+    const Design d = study_app::designFromJson(smallDesign(), "small.json");
+    EXPECT_EQ(d.task, records::Task::twoAfc);
+    EXPECT_EQ(d.encoding, records::Encoding::srgb);
+    EXPECT_EQ(d.windowPx, 600);
+    EXPECT_EQ(d.kernels, std::vector<std::string>{"disc"});
+    EXPECT_EQ(d.radius, (study_app::RadiusLimits{.min = 1, .max = 300, .step = 0.25}));
+    EXPECT_EQ(d.staircase, quest::kDefaultParameters);
+}
+
+TEST(Design, PresetKeepsItsCriterionInYesNo) {
+    for (const char* preset : {"default", "paper"}) {
+        json j = patched("/quest", preset);
+        j["task"] = "yes_no";
+        const quest::QuestParameters q =
+            study_app::staircaseParameters(study_app::designFromJson(j, "yes_no.json"));
+        EXPECT_EQ(q.gamma, study_app::kYesNoGamma);
+        EXPECT_NEAR(quest::criterion(q), quest::kPaperCriterion, 1e-14);  // rounding there and back
+        // Where trials carry information in yes/no.
+        EXPECT_GT(q.pThreshold, 0.6);
+        EXPECT_LT(q.pThreshold, 0.8);
+    }
+}
+
+TEST(Design, GivenFieldsOverrideThePreset) {
+    const Design d = study_app::designFromJson(
+        patched("/quest", {{"preset", "paper"}, {"prior_sd", 0.7}, {"guess_ratio", 2}}), "x");
+    EXPECT_EQ(d.staircase.priorSd, 0.7);
+    EXPECT_EQ(d.staircase.pThreshold, 0.82);
+    EXPECT_EQ(study_app::staircaseParameters(d).priorMean, -std::log10(2.0));
+}
+
+TEST(Design, ConditionsAreTheFullCrossingWithTrueAngles) {
+    const Design d = tests::variedDesign(records::Task::twoAfc);
+    const auto conditions = study_app::conditions(d);
+    EXPECT_EQ(conditions.size(), 2u * 4 * 2 * 2);
+    std::set<std::string> names;
+    for (const study_app::Condition& c : conditions) {
+        names.insert(c.name);
+        if (c.silhouette.pattern == records::Pattern::stair) {
+            EXPECT_EQ(c.angleDeg, 45);
+        }
+        if (c.silhouette.pattern == records::Pattern::line) {
+            EXPECT_EQ(c.angleDeg, 22.5);
+        }
+        if (c.silhouette.pattern == records::Pattern::step) {
+            EXPECT_NEAR(std::tan(c.angleDeg * M_PI / 180), c.artifactPx / 600.0, 1e-15);
+        }
+    }
+    EXPECT_EQ(names.size(), conditions.size());
+    EXPECT_TRUE(names.contains("step-vertical-a8-lit0.25-box"));
+    EXPECT_TRUE(names.contains("line22.5-a3-lit1-disc"));
+}
+
+// Designs drawn at random within the rules: what the writer writes, the reader reads as the same.
+Design randomDesign(std::uint64_t seed) {
+    std::mt19937_64 rng = study_app::engineAt(seed, study_app::Purpose::order, 0);
+    const auto flip = [&] { return quest::uniformBelow(rng, 2) == 0; };
+    Design d = tests::variedDesign(flip() ? records::Task::twoAfc : records::Task::yesNo);
+    d.description = flip() ? "a \"text\" with \xc3\xa4" : "";
+    d.encoding = flip() ? records::Encoding::srgb : records::Encoding::code;
+    d.litLevels = {1 - quest::uniform01(rng)};
+    d.patterns[3].angleDeg = 1 + 43 * quest::uniform01(rng);
+    d.patterns[1].orientation =
+        flip() ? study_app::Orientation::horizontal : study_app::Orientation::any;
+    d.catchShare = 0.5 * quest::uniform01(rng);
+    d.guessRatio = 1 + 4 * quest::uniform01(rng);
+    d.staircase.priorSd = 0.1 + quest::uniform01(rng);
+    d.staircase.beta = 1 + 5 * quest::uniform01(rng);
+    if (flip()) d.staircase.range = 5 + quest::uniform01(rng);
+    d.radius = {.min = 0.5, .max = 250.5, .step = flip() ? 0.25 : 0.5};
+    d.roving = {.shift = flip(), .quarterTurn = flip(), .mirror = flip(), .tilt = flip()};
+    return d;
+}
+
+TEST(Design, NormalisedFormReadsBackAsTheSameDesign) {
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const Design design = randomDesign(seed);
+        ASSERT_EQ(study_app::validate(design), "") << seed;
+        const json written = json::parse(study_app::normalisedJson(design).dump());
+        const Design read = study_app::designFromJson(written, "written.json");
+        ASSERT_EQ(read, design) << seed;
+        ASSERT_EQ(study_app::designDifference(written, json(study_app::normalisedJson(read))), "");
+    }
+}
+
+TEST(Design, DifferenceNamesTheFieldAndBothValues) {
+    const Design design = tests::variedDesign(records::Task::twoAfc);
+    Design other = design;
+    other.description = "the text is free to change";
+    const auto difference = [&] {
+        return study_app::designDifference(json(study_app::normalisedJson(design)),
+                                           json(study_app::normalisedJson(other)));
+    };
+    EXPECT_EQ(difference(), "");
+    other.staircase.beta = 4;
+    EXPECT_EQ(difference(), "quest.beta is 3.5 there and 4.0 here");
+    other = design;
+    other.litLevels.push_back(0.5);
+    EXPECT_EQ(difference(), "lit_levels.2 is absent there and 0.5 here");
+    other = design;
+    other.litLevels.pop_back();
+    EXPECT_EQ(difference(), "lit_levels.1 is 0.25 there and absent here");
+}
+
+}  // namespace
