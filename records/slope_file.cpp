@@ -54,7 +54,8 @@ ordered_json toJson(const Slope& slope) {
             {"percent_correct", slope.percentCorrect},
             {"task", toText(slope.task)},
             {"kernel", slope.kernel},
-            {"encoding", toText(slope.encoding)},
+            {"encoding",
+             slope.encoding ? ordered_json(toText(*slope.encoding)) : ordered_json(nullptr)},
             {"psychometric_slope", slope.beta},
             {"observer_sd_log10", slope.observerSd},
             {"observer_condition_sd_log10", slope.observerConditionSd},
@@ -107,7 +108,8 @@ Slope slopeFrom(const json& value, const std::string& file) {
     slope.percentCorrect = fields.number("percent_correct", kPercent);
     slope.task = fields.word("task", kTaskWords);
     slope.kernel = fields.text("kernel");
-    slope.encoding = fields.word("encoding", kEncodingWords);
+    fields.any("encoding");  // null, not absent, where it is unknown
+    slope.encoding = fields.optionalWord("encoding", kEncodingWords);
     slope.beta = fields.number("psychometric_slope", kPositive);
     slope.observerSd = fields.number("observer_sd_log10", kNotNegative);
     slope.observerConditionSd = fields.number("observer_condition_sd_log10", kNotNegative);
@@ -153,7 +155,7 @@ std::string describeTerms(const Slope& slope) {
     text += formatted(", %.3g", slope.percentCorrect);
     text += slope.task == Task::twoAfc ? " % correct in 2AFC; " : " % seen in yes/no; ";
     text += slope.kernel + "; ";
-    text += toText(slope.encoding);
+    text += slope.encoding ? toText(*slope.encoding) : "encoding unknown";
     return text + formatted("; beta %.3g", slope.beta) + "; worst group " + slope.worstGroup;
 }
 

@@ -52,11 +52,11 @@ struct Slope {
     double percentCorrect = 0;  ///< what F* stands for in the task, in percent
     Task task = Task::twoAfc;
     std::string kernel;
-    Encoding encoding = Encoding::srgb;
-    double beta = 0;                 ///< psychometric slope of the fit
-    double observerSd = 0;           ///< tau, log10 units
-    double observerConditionSd = 0;  ///< omega, log10 units
-    Estimate kappa;                  ///< exponent of r = c a0 (a/a0)^kappa
+    std::optional<Encoding> encoding = Encoding::srgb;  ///< absent where no trial table says it
+    double beta = 0;                                    ///< psychometric slope of the fit
+    double observerSd = 0;                              ///< tau, log10 units
+    double observerConditionSd = 0;                     ///< omega, log10 units
+    Estimate kappa;                                     ///< exponent of r = c a0 (a/a0)^kappa
     std::optional<double>
         kappaPValue;  ///< likelihood-ratio test of kappa = 1; absent with one size
     std::optional<Estimate> contrastExponent;  ///< e of c(C) = c C^e; absent with one lit level

@@ -145,7 +145,7 @@ Slope randomSlope(std::mt19937_64& random) {
     slope.percentCorrect = 100 * share(random);
     slope.task = oneOf(random, kTaskWords);
     slope.kernel = text(random);
-    slope.encoding = oneOf(random, kEncodingWords);
+    slope.encoding = maybe(random, [](auto& r) { return oneOf(r, kEncodingWords); });
     slope.beta = positive(random);
     slope.observerSd = share(random);
     slope.observerConditionSd = share(random);

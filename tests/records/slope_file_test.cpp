@@ -65,6 +65,8 @@ TEST(SlopeFile, SaysWhatTheNumberMeansInOneSentence) {
               "c = 3.41 (no interval) (r = c a; F* = .646, 82 % seen in yes/no; disc; code; "
               "beta 3.5; worst group step, lit 1)");
     EXPECT_EQ(describe(slope), describeValue(slope) + " (" + describeTerms(slope) + ")");
+    slope.encoding.reset();
+    EXPECT_THAT(describeTerms(slope), HasSubstr("; disc; encoding unknown; beta 3.5"));
 }
 
 TEST(SlopeFile, RefusesToWriteWhatItWouldNotRead) {
