@@ -51,6 +51,7 @@ std::vector<float> Renderer::footprintsUv(int spacing, unsigned phase, PassClock
     if (spacing < 1 || spacing > 64)
         throw std::invalid_argument("footprint spacing is " + std::to_string(spacing) +
                                     " px, must be in [1, 64]");
+    if (!hasFrame_) return {};
     const int width = std::max(widthPx_ / spacing, 1);
     const int height = std::max(heightPx_ / spacing, 1);
     if (width != footprintWidth_ || height != footprintHeight_) {

@@ -98,6 +98,8 @@ void FrameSettings::validate(const GlInfo& info) const {
                           "], what the driver allows (" + info.renderer + ")");
     checkUnit("radiusUv", radiusUv);
     checkUnit("minRadiusUv", minRadiusUv);
+    if (samplesPerPixelEdge < 1 || samplesPerPixelEdge > 16)
+        rejectSetting("samplesPerPixelEdge", std::to_string(samplesPerPixelEdge), "in [1, 16]");
 }
 
 Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
@@ -189,6 +191,7 @@ void Renderer::resize(int widthPx, int heightPx) {
     litTarget_ = makeFramebuffer({lit_.name()}, 0, "lit");
     widthPx_ = widthPx;
     heightPx_ = heightPx;
+    hasFrame_ = false;
 }
 
 std::size_t Renderer::targetBytes() const {
@@ -255,7 +258,8 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     shadow_.shadowFromWorld = glm::mat4(window_.shadowFromWorld);
     shadow_.towardsLight = glm::vec4(window_.towardsLight, 0);
     shadow_.map = {resolution, 1 / resolution, 1 / static_cast<float>(mapEdge_), 0};
-    shadow_.kernel = {settings.radiusUv, settings.minRadiusUv, 0, 0};
+    shadow_.kernel = {settings.radiusUv, settings.minRadiusUv,
+                      static_cast<float>(settings.samplesPerPixelEdge), 0};
     shadow_.parameters[0] = glm::make_vec4(values.data());
     shadow_.parameters[1] = glm::make_vec4(values.data() + 4);
 
@@ -284,7 +288,8 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
         settings.technique != nullptr ? *settings.technique : techniques().front();
     lookupProgram(technique);
     ensureMap(settings.resolution);
-    lastFrameSoft_ = technique.soft;
+    lastFrameSoft_ = technique.soft && settings.radiusUv > 0;
+    hasFrame_ = true;
     updateConstants(settings);
     {
         const PassScope scope(Pass::depth, clock);

@@ -30,7 +30,8 @@ struct FrameSettings {
     int resolution = 1024;  ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
     float radiusUv = 0;     ///< kernel radius as a fraction of the map's extent, 0 .. 1
     float minRadiusUv = 0;  ///< least radius where a texel is larger than a pixel, 0 .. 1
-    bool lit = true;        ///< false leaves the lit pass out
+    bool lit = true;  ///< false leaves the lit pass out
+    int samplesPerPixelEdge = 1;  ///< viewport pixels along a screen pixel's edge, 1 .. 16
 
     /// Throws std::invalid_argument that names the field, its value and its range.
     void validate(const GlInfo& info) const;
@@ -65,7 +66,7 @@ class Renderer {
     /// map, as a fraction of its extent; 0 where no stair-step of the map can show. After a
     /// technique without a kernel, that is sky, surfaces turned from the light and points outside
     /// the map; after one with a kernel, everything that is not in penumbra. Which pixel of each
-    /// cell is taken rotates with `phase`. Waits for the GPU.
+    /// cell is taken rotates with `phase`. Empty before the first frame. Waits for the GPU.
     std::vector<float> footprintsUv(int spacing, unsigned phase, PassClock* clock = nullptr);
 
     ByteImage readLit();          ///< sRGB codes, 3 channels
@@ -115,6 +116,7 @@ class Renderer {
     f32::ViewConstants view_{};
     f32::ShadowConstants shadow_{};
     bool lastFrameSoft_ = false;
+    bool hasFrame_ = false;
 
     Program depthProgram_, prepassProgram_, footprintProgram_, litProgram_;
     std::vector<Program>

@@ -80,7 +80,7 @@ Scene planarOccluder() {
                     .distanceM = 6.9F,
                     .verticalFieldDeg = 38};
     scene.sun = {.azimuthDeg = 62, .elevationDeg = 50};
-    scene.softnessM = 0.055F;
+    scene.softnessM = 0.055;
     return scene;
 }
 
@@ -156,7 +156,7 @@ Scene yard() {
                     .distanceM = 7.4F,
                     .verticalFieldDeg = 34};
     scene.sun = {.azimuthDeg = 138, .elevationDeg = 42};
-    scene.softnessM = 0.03F;
+    scene.softnessM = 0.03;
     return scene;
 }
 

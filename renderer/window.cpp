@@ -2,7 +2,7 @@
 #include "renderer/window.h"
 
 #include <epoxy/gl.h>
-// After the loader.
+#define GLFW_INCLUDE_NONE  // the loader declares GL
 #include <GLFW/glfw3.h>
 
 #include <stdexcept>

@@ -45,7 +45,7 @@ struct Map {
 renderer::f64::ShadowConstants constants(const Technique& technique, int n, double radiusUv) {
     renderer::f64::ShadowConstants c{};
     c.map = {n, 1.0 / n, 1.0 / n, 0};
-    c.kernel = {radiusUv, 0, 0, 0};
+    c.kernel = {radiusUv, 0, 1, 0};
     const renderer::ParameterValues values = technique.standardParameters();
     for (std::size_t i = 0; i < values.size(); ++i)
         c.parameters[i / 4][static_cast<int>(i % 4)] = static_cast<double>(values[i]);

@@ -99,7 +99,7 @@ TEST(Receiver, FootprintIsFiniteWhereTheCameraSeesThePlaneEdgeOn) {
 // one.
 TEST(Receiver, LeastRadiusHoldsOnlyWhereTexelsShow) {
     Projection s = projection();
-    s.shadow.kernel = {0.002, 0.00347, 0, 0};
+    s.shadow.kernel = {0.002, 0.00347, 1, 0};
     ShadowReceiver receiver{};
     receiver.footprintUv = 0.0011;  // a texel is 0.9 px
     EXPECT_DOUBLE_EQ(kernelRadiusUv(receiver, s.shadow), 0.002);

@@ -19,7 +19,8 @@ struct ShadowConstants {
     real4x4 shadowFromWorld;        // the same from world positions, for the depth pass
     real4 towardsLight;             // xyz unit vector to the light
     real4 map;                      // x resolution N in texels, y 1/N, z 1/(edge of the texture that holds the map)
-    real4 kernel;                   // x radius, y least radius where texels show; both as a fraction of the map's extent
+    real4 kernel;                   // x radius, y least radius where texels show, both as a fraction of the map's extent;
+                                    // z samples along a screen pixel's edge (1 but for antialiased pictures)
     real4 parameters[2];            // of the technique, in the order of its table row
 };
 

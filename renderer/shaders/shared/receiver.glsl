@@ -83,7 +83,7 @@ SHARED_FUNCTION ShadowReceiver shadowReceiver(real3 eyeRelative, real3 planeNorm
 // larger than two pixels, not at all where it is smaller than one, and fades in between (the fade is chosen by eye:
 // a hard switch would draw a line across the ground).
 SHARED_FUNCTION real kernelRadiusUv(ShadowReceiver receiver, ShadowConstants shadow) {
-    real texelsPerPixel = receiver.footprintUv * shadow.map.x;
+    real texelsPerPixel = receiver.footprintUv * shadow.kernel.z * shadow.map.x;
     real texelShows = clamp(real(1.0) / max(texelsPerPixel, real(1e-6)) - real(1.0), real(0.0), real(1.0));
     real radius = mix(shadow.kernel.x, max(shadow.kernel.x, shadow.kernel.y), texelShows);
     return clamp(radius, real(0.0), real(1.0));

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// How wrong a visibility image is against a reference of the same size. Measured on visibility, not
+// on shaded colour, and over penumbra pixels, where stair-steps are seen (METHODS section 8). A
+// *resolution error* has the same technique and radius on the largest map as its reference; it says
+// nothing about the technique itself.
+#pragma once
+
+#include <cstddef>
+
+#include "renderer/image.h"
+
+namespace demo {
+
+struct VisibilityError {
+    std::size_t penumbraPixels = 0;  ///< over which all the following is taken
+    double rmse = 0;
+    double most = 0;              ///< largest |difference|
+    double p95 = 0;               ///< 95th percentile of |difference|
+    double bias = 0;              ///< mean difference; positive where light leaks into shadow
+    double shareBeyondLevel = 0;  ///< share of the pixels off by more than 1/255
+    double shareBeyond2Percent = 0;
+    double shareBeyond5Percent = 0;
+};
+
+/// Penumbra pixels are those where either image lies strictly between 0 and 1, or the two differ by
+/// more than half an 8-bit level: a shadow that is missing altogether counts. All zero where there
+/// are none. Throws std::invalid_argument for images of different size.
+VisibilityError compareVisibility(const renderer::FloatImage& image,
+                                  const renderer::FloatImage& reference);
+
+}  // namespace demo

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "demo/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "records/whole_file.h"
+
+namespace demo {
+namespace {
+
+double linearOf(std::uint8_t code) {
+    static const auto table = [] {
+        std::array<double, 256> values{};
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double c = static_cast<double>(i) / 255;
+            values[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        }
+        return values;
+    }();
+    return table[code];
+}
+
+std::uint8_t codeOf(double linear) {
+    const double c =
+        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0)));
+}
+
+}  // namespace
+
+renderer::ByteImage averagedInLight(const renderer::ByteImage& image, int block) {
+    if (block < 1 || image.width % block != 0 || image.height % block != 0)
+        throw std::invalid_argument("averaging: " + std::to_string(image.width) + " x " +
+                                    std::to_string(image.height) + " px do not divide by " +
+                                    std::to_string(block));
+    if (block == 1) return image;
+    renderer::ByteImage result(image.width / block, image.height / block, image.channels);
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x)
+            for (int channel = 0; channel < image.channels; ++channel) {
+                double sum = 0;
+                for (int j = 0; j < block; ++j)
+                    for (int i = 0; i < block; ++i)
+                        sum += linearOf(image.at(x * block + i, y * block + j, channel));
+                result.at(x, y, channel) = codeOf(sum / (block * block));
+            }
+    return result;
+}
+
+void writePng(const std::filesystem::path& file, const renderer::ByteImage& image) {
+    renderer::ByteImage copy = image;
+    cv::Mat bgr;
+    cv::cvtColor(cv::Mat(copy.height, copy.width, CV_8UC3, copy.values.data()), bgr,
+                 cv::COLOR_RGB2BGR);
+    std::vector<unsigned char> bytes;
+    if (!cv::imencode(".png", bgr, bytes))
+        throw std::runtime_error(file.string() + ": picture cannot be encoded");
+    records::writeWholeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+renderer::ByteImage enlarged(const renderer::ByteImage& image, Part part, int scale) {
+    part.width = std::min(part.width, image.width);
+    part.height = std::min(part.height, image.height);
+    part.x = std::clamp(part.x, 0, image.width - part.width);
+    part.y = std::clamp(part.y, 0, image.height - part.height);
+    renderer::ByteImage result(part.width * scale, part.height * scale, image.channels);
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x)
+            for (int channel = 0; channel < image.channels; ++channel)
+                result.at(x, y, channel) =
+                    image.at(part.x + x / scale, part.y + y / scale, channel);
+    return result;
+}
+
+Part worstPart(const renderer::FloatImage& image, const renderer::FloatImage& reference, int width,
+               int height) {
+    width = std::min(width, image.width);
+    height = std::min(height, image.height);
+    std::vector<double> squares(image.values.size());
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+        const double d =
+            static_cast<double>(image.values[i]) - static_cast<double>(reference.values[i]);
+        squares[i] = d * d;
+    }
+    Part worst{0, 0, width, height};
+    double most = -1;
+    constexpr int kStep = 4;
+    for (int y = 0; y + height <= image.height; y += kStep)
+        for (int x = 0; x + width <= image.width; x += kStep) {
+            double sum = 0;
+            for (int j = 0; j < height; j += 2)
+                for (int i = 0; i < width; i += 2) sum += squares[image.index(x + i, y + j)];
+            if (sum <= most) continue;
+            most = sum;
+            worst = {x, y, width, height};
+        }
+    return worst;
+}
+
+renderer::ByteImage differencePicture(const renderer::FloatImage& image,
+                                      const renderer::FloatImage& reference, double full) {
+    constexpr std::array<double, 3> kLeak = {230, 97, 1};  // orange
+    constexpr std::array<double, 3> kDark = {30, 80,
+                                             160};  // blue; the two differ in brightness and in hue
+    renderer::ByteImage result(image.width, image.height, 3);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double d =
+                static_cast<double>(image.at(x, y)) - static_cast<double>(reference.at(x, y));
+            const double t = std::min(std::abs(d) / full, 1.0);
+            const auto& colour = d > 0 ? kLeak : kDark;
+            for (int channel = 0; channel < 3; ++channel)
+                result.at(x, y, channel) = static_cast<std::uint8_t>(
+                    std::lround(255 + t * (colour[static_cast<std::size_t>(channel)] - 255)));
+        }
+    return result;
+}
+
+}  // namespace demo

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "demo/shadow_run.h"
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "demo/picture.h"
+#include "records/slope_file.h"
+
+namespace demo {
+namespace {
+
+namespace rc = resolution_controller;
+
+// Every sixteenth pixel, another one each frame.
+constexpr int kSampleSpacing = 4;
+// The controller lowers after 45 frames by default; an orbiting camera is not waited for.
+constexpr int kMostSettlingFrames = 64;
+
+rc::Slope toController(const records::Slope& slope) {
+    return {.c = slope.c.estimate,
+            .criterion = slope.criterion,
+            .task = slope.task == records::Task::twoAfc ? rc::Task::twoAfc : rc::Task::yesNo,
+            .encoding =
+                slope.encoding == records::Encoding::srgb ? rc::Encoding::srgb : rc::Encoding::code,
+            .beta = slope.beta};
+}
+
+}  // namespace
+
+ResolutionOption parseResolution(const std::string& text, const std::string& option) {
+    if (text == "auto") return std::nullopt;
+    int resolution = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), resolution);
+    if (error != std::errc() || end != text.data() + text.size() || resolution < 1)
+        throw std::invalid_argument(option + " is \"" + text +
+                                    "\", must be auto or a whole number of texels from 1");
+    return resolution;
+}
+
+LoadedSlope loadSlope(const std::optional<std::filesystem::path>& file) {
+    LoadedSlope loaded;
+    if (file) {
+        const records::Slope slope = records::readSlope(*file);
+        loaded.slope = toController(slope);
+        loaded.text = records::describe(slope);
+        if (slope.kernel != "disc")
+            loaded.notes.push_back("the slope was measured with the kernel \"" + slope.kernel +
+                                   "\"; the techniques here filter with a disc");
+    } else {
+        loaded.text = rc::describe(loaded.slope) + ", as published; no slope file was given";
+    }
+    if (loaded.slope.encoding == rc::Encoding::code)
+        loaded.notes.push_back(
+            "the slope was measured with filtering in code values; shadows here are filtered in "
+            "light");
+    return loaded;
+}
+
+Softness chooseSoftness(const renderer::Renderer& frame, std::optional<double> radiusM,
+                        std::optional<double> radiusUv) {
+    const double extent = frame.window().extentM;
+    Softness softness;
+    softness.radiusM = radiusUv ? *radiusUv * extent
+                                : radiusM.value_or(frame.scene().softnessM);
+    softness.radiusUv = radiusUv.value_or(softness.radiusM / extent);
+    if (!(softness.radiusUv >= 0 && softness.radiusUv <= 1))
+        throw std::invalid_argument("radius is " + std::to_string(softness.radiusM) + " m, " +
+                                    std::to_string(softness.radiusUv) +
+                                    " of the shadow map's extent of " + std::to_string(extent) +
+                                    " m in scene " + frame.scene().name +
+                                    "; must be at least 0 and no wider than the map");
+    return softness;
+}
+
+ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
+                     const Settings& settings)
+    : frame_(frame),
+      info_(info),
+      settings_(settings),
+      controller_({.slope = settings.slope, .driverMaxSize = info.maxResolution}) {
+    frameSettings_.technique = settings.technique;
+    frameSettings_.parameters = settings.parameters;
+    frameSettings_.radiusUv = static_cast<float>(settings.radiusUv);
+    if (settings.resolution) {
+        chosen_ = {.resolution = *settings.resolution, .reason = "fixed"};
+        frameSettings_.resolution = *settings.resolution;
+    }
+    frameSettings_.validate(info);
+}
+
+void ShadowRun::step(renderer::PassClock* clock) {
+    if (!settings_.resolution) {
+        // What joins renderer and controller: the last frame's demand chooses this frame's size.
+        const auto c = static_cast<float>(settings_.slope.c);
+        rc::DemandHistogram histogram;
+        for (const float footprint : frame_.footprintsUv(kSampleSpacing, frameNumber_, clock))
+            if (footprint > 0) histogram.add(rc::demand(c, frameSettings_.radiusUv, footprint));
+        const rc::Decision choice = controller_.update(histogram);
+        frameSettings_.resolution = choice.size;
+        frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
+
+        chosen_ = {.resolution = choice.size,
+                   .automatic = true,
+                   .reason = rc::text(choice.reason),
+                   .need = choice.need,
+                   .minRadiusUv = choice.minRadiusUv,
+                   .shareAbove = choice.shareAbove,
+                   .artifactRatio = choice.artifactRatio};
+    }
+    frame_.render(frameSettings_, clock);
+    ++frameNumber_;
+}
+
+int ShadowRun::settle() {
+    step();
+    if (settings_.resolution) return 1;
+    constexpr int kQuietFrames = 4;
+    int frames = 1;
+    for (int quiet = 0; quiet < kQuietFrames && frames < kMostSettlingFrames; ++frames) {
+        const int before = chosen_.resolution;
+        step();
+        quiet = chosen_.resolution == before && chosen_.need > 0 ? quiet + 1 : 0;
+        if (chosen_.need == 0 && frames > 2) break;  // nothing to go by in this view
+    }
+    return frames;
+}
+
+Spread ShadowRun::timeWholeFrames(int frames) {
+    std::vector<double> times;
+    for (int i = 0; i < frames; ++i) {
+        glFinish();
+        const auto start = std::chrono::steady_clock::now();
+        step();
+        glFinish();
+        times.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                .count());
+    }
+    return spreadOf(std::move(times));
+}
+
+ShadowRun::PassSpreads ShadowRun::timePasses(int frames) {
+    renderer::PassClock clock(info_);
+    std::array<std::vector<double>, renderer::kPasses> times;
+    for (int i = 0; i < frames; ++i) {
+        step(&clock);
+        const renderer::PassTimesMs frame = clock.collectMs();
+        for (std::size_t pass = 0; pass < renderer::kPasses; ++pass)
+            if (frame[pass] > 0) times[pass].push_back(frame[pass]);
+    }
+    PassSpreads spreads;
+    for (std::size_t pass = 0; pass < renderer::kPasses; ++pass)
+        spreads.passes[pass] = spreadOf(times[pass]);
+    return spreads;
+}
+
+renderer::ByteImage ShadowRun::picture(int samplesPerPixelEdge) {
+    const int width = frame_.widthPx();
+    const int height = frame_.heightPx();
+    frame_.resize(width * samplesPerPixelEdge, height * samplesPerPixelEdge);
+    renderer::FrameSettings settings = frameSettings_;
+    settings.samplesPerPixelEdge = samplesPerPixelEdge;
+    frame_.render(settings);
+    const renderer::ByteImage large = frame_.readLit();
+    frame_.resize(width, height);
+    frame_.render(frameSettings_);
+    return averagedInLight(large, samplesPerPixelEdge);
+}
+
+}  // namespace demo
