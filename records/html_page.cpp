@@ -45,14 +45,19 @@ std::string captionOf(const std::string& text) {
     return text.empty() ? "" : "<figcaption>" + htmlEscaped(text) + "</figcaption>";
 }
 
-// "12", "-0.4", "3.4 [3.2, 3.6]", "1.5 ms", "82 %", ".646", "n/a", "": what belongs into a column
-// of numbers.
+// What belongs into a column of numbers: "12", "-0.4", "3.4 [3.2, 3.6]", "1.5 ms", "82 %", ".646",
+// "n/a", "". Not "2afc": a word is text.
 bool isNumeric(const std::string& cell) {
     if (cell.empty() || cell == "n/a" || cell == "-") return true;
-    const std::size_t at = cell.find_first_not_of("+-<>=~[( ");
-    return at != std::string::npos &&
-           (std::string_view("0123456789").find(cell[at]) != std::string_view::npos ||
-            (cell[at] == '.' && at + 1 < cell.size()));
+    const std::string_view digits = "0123456789";
+    const std::size_t start = cell.find_first_not_of("+-<>=~[( ");
+    if (start == std::string::npos) return false;
+    const std::size_t end =
+        std::min(cell.find_first_not_of("0123456789.,eE+-", start), cell.size());
+    const std::string number = cell.substr(start, end - start);
+    if (number.find_first_of(digits) > 1) return false;  // ".646" has one character before
+    return end == cell.size() ||
+           std::string_view(" %[]()x/").find(cell[end]) != std::string_view::npos;
 }
 
 std::string tableRow(const std::string& tag, const std::vector<std::string>& cells,

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "program/build_info.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <string>
 
 namespace {
 
 namespace fs = std::filesystem;
+using testing::MatchesRegex;
 
 TEST(BuildInfo, SaysWhatWasBuilt) {
     const program::BuildInfo& info = program::buildInfo();
-    EXPECT_TRUE(std::regex_match(info.version, std::regex(R"(\d+\.\d+\.\d+)"))) << info.version;
-    EXPECT_TRUE(std::regex_match(info.revision, std::regex("unknown|[0-9a-f]{12,}(-dirty)?")))
-        << info.revision;
+    EXPECT_THAT(info.version, MatchesRegex("[0-9]+[.][0-9]+[.][0-9]+"));
+    EXPECT_THAT(info.revision, MatchesRegex("unknown|[0-9a-f]{12,}(-dirty)?"));
     EXPECT_FALSE(info.buildType.empty());
     EXPECT_FALSE(info.compiler.empty());
     EXPECT_EQ(program::versionLine("x"), "x " + info.version + " (revision " + info.revision +
@@ -70,11 +69,9 @@ TEST_F(RevisionScript, NamesTheCommitAndWhetherFilesChanged) {
     write("a");
     git(source_, "add file");
     git(source_, "commit -m x");
-    const std::regex clean("#define STAIRWELL_REVISION \"[0-9a-f]{12}\"\n");
-    const std::regex dirty("#define STAIRWELL_REVISION \"[0-9a-f]{12}-dirty\"\n");
-    EXPECT_TRUE(std::regex_match(revision(), clean)) << revision();
+    EXPECT_THAT(revision(), MatchesRegex("#define STAIRWELL_REVISION \"[0-9a-f]{12}\"\n"));
     write("b");
-    EXPECT_TRUE(std::regex_match(revision(), dirty)) << revision();
+    EXPECT_THAT(revision(), MatchesRegex("#define STAIRWELL_REVISION \"[0-9a-f]{12}-dirty\"\n"));
 }
 
 TEST_F(RevisionScript, TouchesTheHeaderOnlyWhenItChanges) {

@@ -90,6 +90,20 @@ TEST(HtmlPage, AlignsColumnsOfNumbersToTheRight) {
     EXPECT_THAT(page.text(), HasSubstr("<td>step</td><td class=\"number\">&lt;.001</td>"));
 }
 
+TEST(HtmlPage, KeepsWordsToTheLeft) {
+    for (const char* word : {"2afc", "stair", "e", "(none)", "3afc task", "1st"}) {
+        HtmlPage page("t");
+        page.table({"x"}, {{word}}, "");
+        EXPECT_THAT(page.text(), HasSubstr("<td>" + std::string(word) + "</td>"));
+    }
+    for (const char* number : {"12", "-0.4", "1,600", "1.5 ms", "82 %", ".646", "1e-05",
+                               "512 x 512", "[2.3, 2.7]", "< .001", "3.4 [3.2, 3.6]"}) {
+        HtmlPage page("t");
+        page.table({"x"}, {{number}}, "");
+        EXPECT_THAT(page.text(), HasSubstr("<td class=\"number\">")) << number;
+    }
+}
+
 TEST(HtmlPage, KeepsTheIdsOfItsFiguresApart) {
     const std::string figure =
         "<?xml version=\"1.0\"?><!DOCTYPE svg><svg id='a'><title>Gnuplot</title>"
