@@ -34,7 +34,7 @@ Instructions parseInstructions(std::string_view text) {
         } else if (line == "[examples]") {
             blocks.push_back({Kind::examples, {}});
         } else if (!line.empty() && paragraphOpen) {
-            blocks.back().text += " " + std::string(line);
+            blocks.back().text.append(" ").append(line);
             continue;
         } else if (!line.empty()) {
             blocks.push_back({Kind::paragraph, std::string(line)});

@@ -11,8 +11,8 @@ namespace study_app {
 namespace {
 
 constexpr float kFooterPx = 84, kMarginPx = 32;
-constexpr ImVec4 kWarningColor{0.95f, 0.72f, 0.36f, 1};
-constexpr ImVec4 kAccent{0.25f, 0.46f, 0.72f, 1}, kAccentHovered{0.31f, 0.54f, 0.81f, 1};
+const ImVec4 kWarningColor{0.95f, 0.72f, 0.36f, 1};
+const ImVec4 kAccent{0.25f, 0.46f, 0.72f, 1}, kAccentHovered{0.31f, 0.54f, 0.81f, 1};
 
 bool button(const Page& page, const char* label, bool primary) {
     if (primary) {
@@ -108,9 +108,9 @@ void warning(const std::string& text) {
 
 std::string minutesText(double seconds) {
     char text[64];
-    if (seconds < 60) return "less than a minute left";
+    if (seconds < 60) return "less than a minute";
     const double minutes = std::round(seconds / 60);
-    std::snprintf(text, sizeof text, "about %.0f minute%s left", minutes, minutes == 1 ? "" : "s");
+    std::snprintf(text, sizeof text, "about %.0f minute%s", minutes, minutes == 1 ? "" : "s");
     return text;
 }
 
@@ -133,7 +133,7 @@ void drawProgress(const Page& page, const SessionRunner& runner) {
     }
     const std::string text = std::to_string(session.answered()) + " of " +
                              std::to_string(session.total()) + "  ·  " +
-                             minutesText(runner.secondsLeft());
+                             minutesText(runner.secondsLeft()) + " left";
     ImFont* font = page.window.fonts().small;
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6f, 0, text.c_str());
     draw.AddText(font, font->FontSize,

@@ -33,6 +33,7 @@ void warning(const std::string& text);
 
 /// Progress through the session and minutes left, in a line at the foot of the window.
 void drawProgress(const Page& page, const SessionRunner& runner);
+/// "about 12 minutes"
 std::string minutesText(double seconds);
 
 /// Draws codes at the cursor, pixel for pixel.

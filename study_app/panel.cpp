@@ -124,7 +124,7 @@ void drawSessionState(const Page& page, const SessionRunner& runner) {
     const Session& session = runner.session();
     paragraph(formatted("%zu of %zu trials answered, %zu rows on disk; ", session.answered(),
                         session.total(), session.rows()) +
-              minutesText(runner.secondsLeft()));
+              minutesText(runner.secondsLeft()) + " left");
     paragraph(formatted("Attention: %d of %d checks failed", session.catchFailed(),
                         session.catchAnswered()));
     std::error_code unknown;

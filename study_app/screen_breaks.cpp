@@ -41,8 +41,7 @@ std::optional<Request> drawPracticeOver(AppState& state, const Page& page) {
             "You have got the idea. From now on the steps become harder to see, and you will "
             "not be told whether you were right. That is as it should be: the computer keeps "
             "looking for the point at which you are just unsure.");
-        paragraph(minutesText(state.runner->secondsLeft()).replace(0, 1, "A") +
-                  ", with breaks in between.");
+        paragraph("The session takes " + minutesText(state.runner->secondsLeft()) + ".");
     } else {
         warning("Please call the experimenter.");
         ImGui::Spacing();

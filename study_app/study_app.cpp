@@ -19,6 +19,7 @@
 #include "study_app/session_report.h"
 #include "study_app/simulated_population.h"
 #include "study_app/simulated_study.h"
+#include "study_app/window_options.h"
 
 namespace {
 
@@ -27,6 +28,7 @@ struct Options {
     std::string seed;  // as text: CLI11 reads "-1" as 2^64 - 1
     int observers = 0;
     bool headless = false, listDesigns = false;
+    study_app::WindowArguments window;
 };
 
 void printNotices(const std::vector<std::string>& notices) {
@@ -119,6 +121,21 @@ std::uint64_t readSeed(const std::string& text) {
     throw CLI::ValidationError("--seed", text + ": must be a whole number from 0 to 2^64 - 1");
 }
 
+void showWindow(const CLI::App& app, const Options& options, std::vector<std::string> command) {
+    for (const char* option : {"--observer", "--observers"}) {
+        if (app.count(option) > 0) throw CLI::RequiresError(option, "--headless");
+    }
+    study_app::WindowRun run;
+    if (!options.data.empty()) run.form.dataFolder = options.data;
+    if (!options.design.empty()) run.form.design = options.design;
+    run.form.participant = options.participant;
+    run.form.session = options.session;
+    if (app.count("--seed") > 0) run.form.seed = std::to_string(readSeed(options.seed));
+    run.context = records::currentRunContext("study_app", std::move(command));
+    study_app::apply(options.window, run);
+    study_app::runWindow(run);
+}
+
 void run(const CLI::App& app, const Options& options, std::vector<std::string> command) {
     if (options.listDesigns) {
         requireAlone(app, "--list-designs");
@@ -128,11 +145,7 @@ void run(const CLI::App& app, const Options& options, std::vector<std::string> c
         requireAlone(app, "--replay");
         return replay(options.replay);
     }
-    if (!options.headless) {
-        throw std::runtime_error(
-            "the window for sessions with people is not part of this build: add --headless and "
-            "--observer simulated (see --help)");
-    }
+    if (!options.headless) return showWindow(app, options, std::move(command));
     for (const char* option : {"--design", "--data", "--observer", "--seed"}) require(app, option);
     if (app.count("--observers") > 0 && app.count("--participant") > 0) {
         throw CLI::ExcludesError("--observers", "--participant");
@@ -177,6 +190,7 @@ int main(int argc, char** argv) {
         "--replay", o.replay,
         "Derive a recorded session again from its table and sidecar, compare, print thresholds");
     app.add_flag("--list-designs", o.listDesigns, "Print the shipped designs");
+    study_app::addWindowOptions(app, o.window);
     std::vector<std::string> command(argv, argv + argc);
     return program::run(app, argc, argv, [&] { run(app, o, command); });
 }

@@ -33,10 +33,10 @@ double gammaFromGreyCode(int code);
 struct DisplayProfile {
     std::string name;  ///< of the monitor, as the system gives it
     int widthPx = 0, heightPx = 0;
-    std::optional<double> pxPerMm;
-    std::optional<double> distanceMm;
-    std::optional<double> gamma;
-    std::optional<double> luminanceCdM2;  ///< of full white
+    std::optional<double> pxPerMm = {};
+    std::optional<double> distanceMm = {};
+    std::optional<double> gamma = {};
+    std::optional<double> luminanceCdM2 = {};  ///< of full white
     bool operator==(const DisplayProfile&) const = default;
 };
 

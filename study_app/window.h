@@ -44,7 +44,10 @@ struct Input {
     std::string disturbance;
     bool closeRequested = false;
 
-    void clear() { *this = {.closeRequested = closeRequested}; }
+    void clear() {
+        presses.clear();
+        disturbance.clear();
+    }
 };
 
 struct Fonts {
