@@ -63,8 +63,7 @@ Softness chooseSoftness(const renderer::Renderer& frame, std::optional<double> r
                         std::optional<double> radiusUv) {
     const double extent = frame.window().extentM;
     Softness softness;
-    softness.radiusM = radiusUv ? *radiusUv * extent
-                                : radiusM.value_or(frame.scene().softnessM);
+    softness.radiusM = radiusUv ? *radiusUv * extent : radiusM.value_or(frame.scene().softnessM);
     softness.radiusUv = radiusUv.value_or(softness.radiusM / extent);
     if (!(softness.radiusUv >= 0 && softness.radiusUv <= 1))
         throw std::invalid_argument("radius is " + std::to_string(softness.radiusM) + " m, " +

@@ -56,8 +56,7 @@ struct Scene {
     OrbitCamera camera;
     Sun sun;
     Bounds casters;  ///< what throws shadows; the light's window is fitted to it
-    float softnessM =
-        0.05F;  ///< radius of the shadow's blur, in metres across the light's direction
+    double softnessM = 0.05;  ///< radius of the shadow's blur, in metres across the light's direction
 };
 
 struct SceneEntry {

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "demo/benchmark_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+#include "demo/benchmark_log.h"
+#include "demo/time_bars.h"
+#include "records/html_page.h"
+#include "records/slope_file.h"
+#include "records/whole_file.h"
+
+namespace demo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDetailScale = 4;
+constexpr double kFullDifference = 0.25;  // visibility at which error pictures reach full colour
+
+std::string formatted(const char* format, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string nameOf(const BenchmarkCell& cell) {
+    return cell.chosen.automatic ? "auto" : "fixed " + std::to_string(cell.chosen.resolution);
+}
+
+std::string withSpread(const Spread& spread) {
+    if (spread.count == 0) return "n/a";
+    return formatted("%.1f", spread.median) + " [" + formatted("%.1f", spread.p25) + ", " +
+           formatted("%.1f", spread.p75) + "]";
+}
+
+std::string errorText(const BenchmarkCell& cell, double value, const char* format) {
+    return cell.isReference ? "reference" : formatted(format, value);
+}
+
+void addTable(records::HtmlPage& page, const BenchmarkResult& result) {
+    std::vector<std::vector<std::string>> rows;
+    for (const BenchmarkGroup& group : result.groups)
+        for (const BenchmarkCell& cell : group.cells) {
+            const auto pass = [&](renderer::Pass p) {
+                return withSpread(cell.passesMs.passes[static_cast<std::size_t>(p)]);
+            };
+            const double speed = group.reference().frameMs.median / cell.frameMs.median;
+            const VisibilityError& e = cell.error;
+            rows.push_back({group.scene, std::string(group.technique->name), nameOf(cell),
+                            std::to_string(cell.chosen.resolution),
+                            formatted("%.1f", static_cast<double>(cell.mapBytes) / (1 << 20)),
+                            withSpread(cell.frameMs), formatted("%.2f", speed),
+                            pass(renderer::Pass::depth), pass(renderer::Pass::lookup),
+                            errorText(cell, e.rmse, "%.4f"), errorText(cell, e.p95, "%.4f"),
+                            errorText(cell, e.most, "%.3f"), errorText(cell, e.bias, "%+.5f"),
+                            errorText(cell, 100 * e.shareBeyondLevel, "%.1f"),
+                            errorText(cell, 100 * e.shareBeyond2Percent, "%.1f"),
+                            errorText(cell, 100 * e.shareBeyond5Percent, "%.1f")});
+        }
+    page.table({"scene", "technique", "size", "N", "map MiB", "frame ms", "speed", "depth ms",
+                "lookup ms", "RMSE", "p95", "max", "bias", "> 1 level %", "> 2 % %", "> 5 % %"},
+               rows,
+               "Times are medians with quartiles. Speed is against the reference, the largest "
+               "fixed map. Errors are "
+               "resolution errors in visibility over penumbra pixels, positive bias where light "
+               "leaks into shadow; the "
+               "last three columns are shares of the penumbra's pixels.");
+}
+
+void addPictures(records::HtmlPage& page, const fs::path& folder, const BenchmarkGroup& group) {
+    std::vector<records::HtmlPage::Picture> whole;
+    std::vector<records::HtmlPage::Picture> details;
+    std::vector<records::HtmlPage::Picture> errors;
+    for (const BenchmarkCell& cell : group.cells) {
+        const std::string stem =
+            group.scene + "_" + std::string(group.technique->name) + "_" +
+            (cell.chosen.automatic ? "auto" : std::to_string(cell.chosen.resolution));
+        const fs::path picture = folder / (stem + ".png");
+        const fs::path detail = folder / (stem + "_detail.png");
+        const fs::path error = folder / (stem + "_error.png");
+        writePng(picture, cell.picture);
+        writePng(detail, enlarged(cell.picture, group.detail, kDetailScale));
+        const std::string size =
+            nameOf(cell) +
+            (cell.chosen.automatic ? ", N = " + std::to_string(cell.chosen.resolution) : "");
+        const std::string time = formatted("%.1f ms a frame", cell.frameMs.median);
+        whole.push_back(
+            {picture, group.scene + " rendered with map size " + size, size + ": " + time});
+        details.push_back({detail, "enlarged detail, map size " + size, size});
+        if (cell.isReference) continue;
+        writePng(error,
+                 differencePicture(cell.visibility, group.reference().visibility, kFullDifference));
+        errors.push_back({error, "difference in visibility, map size " + size,
+                          size + ": RMSE " + formatted("%.4f", cell.error.rmse)});
+    }
+    page.subheading(group.scene + ", " + std::string(group.technique->title));
+    page.paragraph("Radius " + formatted("%.3f", group.softness.radiusM) + " m, " +
+                   formatted("%.5f", group.softness.radiusUv) + " of the map's extent of " +
+                   formatted("%.2f", group.mapExtentM) + " m; " + std::to_string(group.triangles) +
+                   " triangles.");
+    page.gallery(whole);
+    page.paragraph("A detail, enlarged " + std::to_string(kDetailScale) +
+                   " times, at the place where the smallest map is furthest from the reference:");
+    page.gallery(details);
+    page.paragraph(
+        "Difference in visibility from the reference: orange where light leaks in, blue where it "
+        "is too "
+        "dark, full colour at " +
+        formatted("%.2f", kFullDifference) + ":");
+    page.gallery(errors);
+}
+
+void addFit(records::HtmlPage& page, const fs::path& folder) {
+    const records::Slope slope = records::readSlope(folder / "slope.json");
+    page.heading("The slope that chose the sizes");
+    page.paragraph(records::describe(slope) + ". " + std::to_string(slope.observers) +
+                   " observers, " + std::to_string(slope.trials) + " trials.");
+    page.paragraph(slope.method);
+    std::vector<fs::path> figures;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".svg") figures.push_back(entry.path());
+    std::sort(figures.begin(), figures.end());
+    for (const fs::path& figure : figures) {
+        std::string caption = figure.stem().string();
+        std::replace(caption.begin(), caption.end(), '_', ' ');
+        page.svg(records::readWholeFile(figure), caption);
+    }
+}
+
+}  // namespace
+
+fs::path writeReport(const fs::path& folder, const BenchmarkResult& result,
+                     const records::RunContext& context, const LoadedSlope& slope,
+                     const std::optional<fs::path>& fitFolder) {
+    const std::string figure = timeBarsSvg(result);
+    records::writeWholeFile(folder / "benchmark.tsv", benchmarkLog(result, context, slope));
+    records::writeWholeFile(folder / "frame_time.svg", figure);
+
+    records::HtmlPage page("Shadow maps at automatic and fixed size");
+    for (const Headline& headline : headlines(result))
+        page.headline(headline.number, headline.meaning + ".");
+    page.paragraph("Sizes were chosen by " + slope.text + ".");
+    for (const std::string& note : slope.notes) page.note("Note: " + note + ".");
+    if (context.softwareRasteriser.value_or(false))
+        page.note(
+            "Timed on a software rasteriser: the queue is finished around each pass and a steady "
+            "clock read; "
+            "whole frames come from separate runs without inner finishes. Ratios on a GPU differ.");
+    page.heading("Where the time goes");
+    page.svg(figure,
+             "Median time of each pass, whole-frame time and resolution error. Each scene has its "
+             "own scale.");
+    addTable(page, result);
+    page.heading("Pictures");
+    for (const BenchmarkGroup& group : result.groups) addPictures(page, folder, group);
+    if (fitFolder) addFit(page, *fitFolder);
+    page.heading("How it was measured");
+    page.preformatted(records::contextText(context) + "\ntiming     " + result.timing);
+    const fs::path report = folder / "report.html";
+    page.write(report);
+    return report;
+}
+
+}  // namespace demo
