@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/pooled_fit.h"
+
+#include <ceres/ceres.h>
+
+#include <cmath>
+#include <ostream>
+
+namespace analysis {
+namespace {
+
+// Below it the root's derivative would overflow: an answer this certain (ln P = -5e-13) says
+// nothing more.
+constexpr double kRootFloor = 1e-12;
+
+template <typename T>
+T deviance(const T& negativeLog) {
+    using std::sqrt;
+    const T squared = 2.0 * negativeLog;
+    return squared > kRootFloor ? T(sqrt(squared)) : T(sqrt(kRootFloor));
+}
+
+// Location of a condition: x_k' b, summed in front of a trial's other parameters.
+struct Trial {
+    double strength;
+    bool yes;
+    double gamma, lapseGuess, criterion;
+};
+
+template <typename T>
+quest::ResponseModelOf<T> response(const Trial& trial, const T& lapse) {
+    return {T(trial.gamma), lapse, T(trial.lapseGuess)};
+}
+
+// Parameter blocks: b (all of it), ln beta of the condition, lapse.
+struct TrialDeviance {
+    Trial trial;
+    Eigen::RowVectorXd row;
+
+    template <typename T>
+    bool operator()(T const* const* parameters, T* residual) const {
+        using std::exp;
+        T location(trial.strength);
+        for (Eigen::Index j = 0; j < row.size(); ++j) {
+            if (row[j] != 0) location += row[j] * parameters[0][j];
+        }
+        const T beta = exp(parameters[1][0]);
+        const auto model = response(trial, parameters[2][0]);
+        residual[0] =
+            deviance(T(-(trial.yes ? quest::logYes(location, beta, trial.criterion, model)
+                                   : quest::logNo(location, beta, trial.criterion, model))));
+        return true;
+    }
+};
+
+// The same trial for the covariance: (y - p) with p0's standard deviation frozen.
+struct FrozenWeight {
+    Trial trial;
+    Eigen::RowVectorXd row;
+    double sd;
+
+    template <typename T>
+    bool operator()(T const* const* parameters, T* residual) const {
+        using std::exp;
+        T location(trial.strength);
+        for (Eigen::Index j = 0; j < row.size(); ++j) {
+            if (row[j] != 0) location += row[j] * parameters[0][j];
+        }
+        const T beta = exp(parameters[1][0]);
+        const T p =
+            quest::responseProbability(quest::detectionProbability(location, beta, trial.criterion),
+                                       response(trial, parameters[2][0]));
+        residual[0] = ((trial.yes ? 1.0 : 0.0) - p) / sd;
+        return true;
+    }
+};
+
+struct BetaPrior {
+    template <typename T>
+    bool operator()(const T* lnBeta, T* residual) const {
+        residual[0] = (lnBeta[0] - std::log(kBetaPriorCentre)) / kBetaPriorLnSd;
+        return true;
+    }
+};
+
+struct LapsePrior {
+    template <typename T>
+    bool operator()(const T* lapse, T* residual) const {
+        using std::log1p;
+        residual[0] = deviance(T(-(kLapsePriorB - 1.0) * log1p(-lapse[0])));
+        return true;
+    }
+};
+
+struct Parameters {
+    Eigen::VectorXd fixed;
+    std::vector<double> lnBeta;
+    double lapse;
+};
+
+template <typename Functor>
+ceres::CostFunction* costFunction(const Functor& functor, int fixedCount) {
+    auto* cost = new ceres::DynamicAutoDiffCostFunction<Functor, 6>(new Functor(functor));
+    cost->AddParameterBlock(fixedCount);
+    cost->AddParameterBlock(1);
+    cost->AddParameterBlock(1);
+    cost->SetNumResiduals(1);
+    return cost;
+}
+
+template <typename Add>
+void forEachTrial(const Model& model, Add add) {
+    for (const ModelObserver& observer : model.observers) {
+        for (const ModelCell& cell : observer.cells) {
+            const Eigen::RowVectorXd row = model.design.row(cell.condition);
+            for (std::size_t t = 0; t < cell.trials.strength.size(); ++t) {
+                add(Trial{cell.trials.strength[t], t < cell.trials.yesCount, observer.gamma,
+                          observer.lapseGuess, model.criterion},
+                    row,
+                    static_cast<std::size_t>(
+                        model.betaIndex[static_cast<std::size_t>(cell.condition)]));
+            }
+        }
+    }
+}
+
+void addPriors(ceres::Problem& problem, Parameters& at) {
+    for (double& lnBeta : at.lnBeta) {
+        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<BetaPrior, 1, 1>(new BetaPrior),
+                                 nullptr, &lnBeta);
+    }
+}
+
+Eigen::MatrixXd frozenWeightCovariance(const Model& model, Parameters at, bool holdLapse) {
+    ceres::Problem problem;
+    const int fixedCount = static_cast<int>(at.fixed.size());
+    forEachTrial(model, [&](const Trial& trial, const Eigen::RowVectorXd& row, std::size_t beta) {
+        const quest::ResponseModel shape{trial.gamma, at.lapse, trial.lapseGuess};
+        const double location = trial.strength + row.dot(at.fixed);
+        const double yes = quest::responseProbability(
+            quest::detectionProbability(location, std::exp(at.lnBeta[beta]), trial.criterion),
+            shape);
+        const double no =
+            std::exp(quest::logNo(location, std::exp(at.lnBeta[beta]), trial.criterion, shape));
+        if (!(yes * no > 0)) return;  // a certain answer carries no information
+        problem.AddResidualBlock(
+            costFunction(FrozenWeight{trial, row, std::sqrt(yes * no)}, fixedCount), nullptr,
+            at.fixed.data(), &at.lnBeta[beta], &at.lapse);
+    });
+    addPriors(problem, at);
+    std::vector<const double*> blocks{at.fixed.data()};
+    for (const double& lnBeta : at.lnBeta) blocks.push_back(&lnBeta);
+    if (holdLapse) {
+        problem.SetParameterBlockConstant(&at.lapse);
+    } else {
+        blocks.push_back(&at.lapse);
+    }
+    ceres::Covariance::Options options;
+    options.algorithm_type = ceres::DENSE_SVD;
+    options.num_threads = 1;
+    ceres::Covariance covariance(options);
+    if (!covariance.Compute(blocks, &problem)) return {};
+    const auto n =
+        static_cast<Eigen::Index>(fixedCount) + static_cast<Eigen::Index>(blocks.size()) - 1;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> matrix(n, n);
+    if (!covariance.GetCovarianceMatrix(blocks, matrix.data())) return {};
+    return matrix;
+}
+
+}  // namespace
+
+PooledFit fitPooled(const Model& model, const ModelParameters& start) {
+    Parameters at{start.fixed, {}, start.lapse};
+    for (const double beta : start.beta) at.lnBeta.push_back(std::log(beta));
+    ceres::Problem problem;
+    forEachTrial(model, [&](const Trial& trial, const Eigen::RowVectorXd& row, std::size_t beta) {
+        problem.AddResidualBlock(
+            costFunction(TrialDeviance{trial, row}, static_cast<int>(at.fixed.size())), nullptr,
+            at.fixed.data(), &at.lnBeta[beta], &at.lapse);
+    });
+    addPriors(problem, at);
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LapsePrior, 1, 1>(new LapsePrior),
+                             nullptr, &at.lapse);
+    problem.SetParameterLowerBound(&at.lapse, 0, kLapseFloor);
+    problem.SetParameterUpperBound(&at.lapse, 0, kLapseLimit);
+
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.num_threads = 1;  // more would not give the same digits each time
+    options.max_num_iterations = 500;
+    options.function_tolerance = 1e-16;
+    options.gradient_tolerance = 1e-10;
+    options.parameter_tolerance = 1e-12;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+
+    PooledFit fit;
+    fit.converged = summary.termination_type == ceres::CONVERGENCE;
+    fit.message = summary.message;
+    fit.fixed = at.fixed;
+    for (const double lnBeta : at.lnBeta) fit.beta.push_back(std::exp(lnBeta));
+    fit.lapse = at.lapse;
+    fit.lapseAtBound = at.lapse <= 2 * kLapseFloor || at.lapse >= kLapseLimit * (1 - 1e-9);
+    fit.logLikelihood = -summary.final_cost;
+    fit.iterations = static_cast<int>(summary.iterations.size());
+    fit.covariance = frozenWeightCovariance(model, at, fit.lapseAtBound);
+    return fit;
+}
+
+std::ostream& operator<<(std::ostream& out, const PooledFit& fit) {
+    out << (fit.converged ? "converged" : "not converged: " + fit.message) << " in "
+        << fit.iterations << " iterations; ln L " << fit.logLikelihood << "; beta";
+    for (const double beta : fit.beta) out << ' ' << beta;
+    return out << ", lapse " << fit.lapse << (fit.lapseAtBound ? " (on its bound)" : "");
+}
+
+}  // namespace analysis

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/random_observer_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <vector>
+
+#include "analysis/distributions.h"
+#include "analysis/quasi_newton.h"
+
+namespace analysis {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Typical sizes of a step, so that the optimiser sees curvatures of like magnitude.
+constexpr double kFixedScale = 0.03, kCurveScale = 0.1, kSpreadScale = 0.03;
+// Twice the log-likelihood still to gain: 1e-4 standard errors from the maximum.
+constexpr double kDecrement = 1e-8;
+constexpr double kDifferenceStep = 1e-2;  // of the Hessian, in the same units
+// Nearer to a stationary point at a bound than this, a parameter is set on the bound.
+constexpr double kZeroSpread = 1e-4;  // log10 units: 0.02 % of r
+constexpr double kBoundAngle = 0.02;  // lapse within 6e-5 of the bound
+constexpr int kMostRounds = 40;       // of adapting the points and climbing
+constexpr int kFullRounds = 6;
+constexpr double kSettled = 0.01;  // a round that moves less, scaled, is the last
+constexpr double kHalfPi = 1.57079632679489662;
+
+// Scaled free coordinates <-> all coordinates.
+VectorXd picked(const VectorXd& x, const VectorXd& scale, const std::vector<int>& free) {
+    VectorXd scaled(static_cast<Eigen::Index>(free.size()));
+    for (Eigen::Index j = 0; j < scaled.size(); ++j) {
+        const int at = free[static_cast<std::size_t>(j)];
+        scaled[j] = x[at] / scale[at];
+    }
+    return scaled;
+}
+
+VectorXd placed(VectorXd x, const VectorXd& scaled, const VectorXd& scale,
+                const std::vector<int>& free) {
+    for (Eigen::Index j = 0; j < scaled.size(); ++j) {
+        const int at = free[static_cast<std::size_t>(j)];
+        x[at] = scaled[j] * scale[at];
+    }
+    return x;
+}
+
+// The information on b is known before anything is fitted; the rest starts at its typical size.
+MatrixXd firstInverseHessian(const MatrixXd& information, const VectorXd& scale,
+                             const std::vector<int>& free) {
+    const auto p = information.rows();
+    const MatrixXd covariance = information.ldlt().solve(MatrixXd::Identity(p, p));
+    const auto n = static_cast<Eigen::Index>(free.size());
+    MatrixXd inverse = MatrixXd::Identity(n, n);
+    const VectorXd unit = scale.head(p).cwiseInverse();
+    inverse.topLeftCorner(p, p) = unit.asDiagonal() * covariance * unit.asDiagonal();
+    return inverse;
+}
+
+// Second derivatives of -ln L in the scaled free coordinates, from central differences of the exact
+// gradient. Empty where the likelihood cannot be had nearby.
+MatrixXd scaledHessian(MarginalLikelihood& likelihood, LikelihoodForm form, const VectorXd& x,
+                       const VectorXd& scale, const std::vector<int>& free, int& evaluations) {
+    const auto n = static_cast<Eigen::Index>(free.size());
+    MatrixXd hessian(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const int at = free[static_cast<std::size_t>(j)];
+        VectorXd up, down, moved = x;
+        moved[at] = x[at] + kDifferenceStep * scale[at];
+        const double above = likelihood.evaluate(moved, form, &up);
+        moved[at] = x[at] - kDifferenceStep * scale[at];
+        const double below = likelihood.evaluate(moved, form, &down);
+        evaluations += 2;
+        if (!std::isfinite(above) || !std::isfinite(below)) return {};
+        for (Eigen::Index k = 0; k < n; ++k) {
+            const int to = free[static_cast<std::size_t>(k)];
+            hessian(k, j) = -(up[to] - down[to]) * scale[to] / (2 * kDifferenceStep);
+        }
+    }
+    return 0.5 * (hessian + hessian.transpose());
+}
+
+struct Layout {
+    int fixed, beta, lapse, tau, omega;  // first index of each kind of coordinate
+    explicit Layout(const Model& model)
+        : fixed(0),
+          beta(static_cast<int>(model.design.cols())),
+          lapse(beta + model.betaCount),
+          tau(lapse + 1),
+          omega(tau + 1) {}
+};
+
+VectorXd coordinateScale(const Layout& layout) {
+    VectorXd scale(layout.omega + 1);
+    scale.head(layout.beta).setConstant(kFixedScale);
+    scale.segment(layout.beta, layout.tau - layout.beta).setConstant(kCurveScale);
+    scale.tail(2).setConstant(kSpreadScale);
+    return scale;
+}
+
+std::vector<int> freeCoordinates(const Layout& layout, const FitOptions& options) {
+    std::vector<int> free;
+    const int end = options.estimateCurve ? layout.tau : layout.beta;
+    for (int j = 0; j < end; ++j) free.push_back(j);
+    if (options.estimateTau) free.push_back(layout.tau);
+    if (options.estimateOmega) free.push_back(layout.omega);
+    return free;
+}
+
+// A parameter whose optimum is on its bound is put there and held, so that the Hessian of the rest
+// means something. True when one was.
+bool holdBounds(VectorXd& x, std::vector<int>& free, const Layout& layout, RandomObserverFit& fit) {
+    bool held = false;
+    const auto hold = [&](int index, double value, bool& flag) {
+        const auto found = std::find(free.begin(), free.end(), index);
+        if (found == free.end()) return;
+        free.erase(found);
+        x[index] = value;
+        flag = held = true;
+    };
+    if (std::abs(x[layout.tau]) < kZeroSpread) hold(layout.tau, 0, fit.tauAtZero);
+    if (std::abs(x[layout.omega]) < kZeroSpread) hold(layout.omega, 0, fit.omegaAtZero);
+    const double angle = std::abs(std::remainder(x[layout.lapse], 2 * kHalfPi));
+    if (angle < kBoundAngle) hold(layout.lapse, 0, fit.lapseAtBound);
+    if (angle > kHalfPi - kBoundAngle) hold(layout.lapse, kHalfPi, fit.lapseAtBound);
+    return held;
+}
+
+void keepEffects(const Model& model, const MarginalLikelihood& likelihood, RandomObserverFit& fit) {
+    for (std::size_t i = 0; i < model.observers.size(); ++i) {
+        fit.observerEffects.push_back(likelihood.observerEffect(i));
+        fit.cellLocations.emplace_back();
+        for (std::size_t k = 0; k < model.observers[i].cells.size(); ++k) {
+            fit.cellLocations.back().push_back(likelihood.cellLocation(i, k));
+        }
+    }
+}
+
+// The covariance of b and ln beta from the Hessian of everything but tau and omega. A lapse rate
+// whose likelihood is too flat to have a curvature is held, which is said.
+void addCovariance(MarginalLikelihood& likelihood, const FitOptions& options, const Layout& layout,
+                   const VectorXd& x, const VectorXd& scale, std::vector<int> free,
+                   RandomObserverFit& fit) {
+    std::erase_if(free, [&](int index) { return index >= layout.tau; });
+    MatrixXd hessian = scaledHessian(likelihood, options.form, x, scale, free, fit.evaluations);
+    const Eigen::Index named = options.estimateCurve ? layout.lapse : layout.beta;
+    if (hessian.rows() > named && hessian.llt().info() != Eigen::Success) {
+        hessian = hessian.topLeftCorner(named, named).eval();
+        fit.message = "lapse rate held for the intervals: the likelihood is flat in it";
+    }
+    const Eigen::LLT<MatrixXd> factor(hessian);
+    if (hessian.size() == 0 || factor.info() != Eigen::Success) {
+        fit.converged = false;
+        fit.message = "the likelihood does not fall off in every direction at the estimate";
+        return;
+    }
+    const MatrixXd inverse = factor.solve(MatrixXd::Identity(hessian.rows(), hessian.cols()));
+    const VectorXd unit = scale.head(named);
+    fit.covariance = unit.asDiagonal() * inverse.topLeftCorner(named, named) * unit.asDiagonal();
+}
+
+}  // namespace
+
+RandomObserverFit fitRandomObservers(const Model& model, const ModelParameters& start,
+                                     const FitOptions& options) {
+    MarginalLikelihood likelihood(model);
+    RandomObserverFit fit;
+    fit.observers = static_cast<int>(model.observers.size());
+    fit.parameters = start;
+    const Layout layout(model);
+    const VectorXd scale = coordinateScale(layout);
+    std::vector<int> free = freeCoordinates(layout, options);
+
+    VectorXd x = toCoordinates(start), full;
+    MatrixXd inverseHessian;
+    const auto objective = [&](const VectorXd& scaled, VectorXd* gradient) {
+        ++fit.evaluations;
+        const double value = likelihood.evaluate(placed(x, scaled, scale, free), options.form,
+                                                 gradient ? &full : nullptr);
+        if (gradient && std::isfinite(value)) {
+            *gradient = -picked(full.cwiseProduct(scale).cwiseProduct(scale), scale, free);
+        }
+        return -value;
+    };
+    for (int round = 0; round < kMostRounds && !fit.converged; ++round) {
+        if (!likelihood.adapt(x) || !std::isfinite(likelihood.evaluate(x, options.form, nullptr))) {
+            fit.message = "the likelihood cannot be evaluated";
+            return fit;
+        }
+        if (inverseHessian.size() == 0) {
+            inverseHessian = firstInverseHessian(likelihood.fixedInformation(), scale, free);
+        }
+        const VectorXd from = picked(x, scale, free);
+        const Descent descent = descend(objective, from, inverseHessian, kDecrement);
+        const bool settled =
+            descent.converged && (descent.x - from).lpNorm<Eigen::Infinity>() < kSettled;
+        // Adapting and climbing may chase each other; half steps end that.
+        const double share = !settled && round >= kFullRounds ? 0.5 : 1.0;
+        x = placed(x, from + share * (descent.x - from), scale, free);
+        fit.converged = settled && !holdBounds(x, free, layout, fit);
+        if (settled && !fit.converged) inverseHessian.resize(0, 0);
+        fit.message = descent.converged ? "the maximum moved with every adaptation"
+                                        : "the search for the maximum stopped short of it";
+    }
+    if (fit.converged) fit.message.clear();
+    if (fit.converged) likelihood.adapt(x);
+    if (fit.converged && options.covariance) {
+        addCovariance(likelihood, options, layout, x, scale, free, fit);
+    }
+    VectorXd gradient;
+    fit.logLikelihood = likelihood.evaluate(x, options.form, &gradient);
+    ++fit.evaluations;
+    if (!std::isfinite(fit.logLikelihood)) {
+        fit.converged = false;
+        fit.message = "the likelihood is not finite at the estimate";
+        return fit;
+    }
+    fit.parameters = fromCoordinates(x, model);
+    fit.fixedInformation = likelihood.fixedInformation();
+    if (options.covariance) fit.spread = likelihood.spreadInformation();
+    keepEffects(model, likelihood, fit);
+    return fit;
+}
+
+double satterthwaite(const RandomObserverFit& fit, const VectorXd& weights) {
+    const double fewest = fit.observers - 1;
+    if (fit.spread.perTau2.size() == 0) return fewest;
+    const VectorXd solved = fit.fixedInformation.ldlt().solve(weights);
+    const double variance = weights.dot(solved);
+    const Eigen::Vector2d slope(solved.dot(fit.spread.perTau2 * solved),
+                                solved.dot(fit.spread.perOmega2 * solved));
+    // Where one of the two cannot be told (one condition, say) its information is 0.
+    Eigen::Matrix2d information = fit.spread.information;
+    double spread = 0;
+    if (information.determinant() > 1e-12 * information(0, 0) * information(1, 1)) {
+        spread = slope.dot(information.inverse() * slope);
+    } else if (information(0, 0) > 0) {
+        spread = slope[0] * slope[0] / information(0, 0);
+    }
+    if (!(spread > 0)) return fewest;
+    return std::max(fewest, 2 * variance * variance / spread);
+}
+
+LinearEstimate linearEstimate(const RandomObserverFit& fit, const VectorXd& weights) {
+    LinearEstimate estimate;
+    estimate.value = weights.dot(fit.parameters.fixed);
+    if (fit.covariance.size() == 0) return estimate;
+    const auto n = weights.size();
+    estimate.standardError = std::sqrt(weights.dot(fit.covariance.topLeftCorner(n, n) * weights));
+    if (fit.observers >= 2) estimate.degreesOfFreedom = satterthwaite(fit, weights);
+    return estimate;
+}
+
+std::optional<records::Interval> LinearEstimate::ci95() const {
+    if (!(degreesOfFreedom > 0) || !(standardError > 0)) return std::nullopt;
+    const double half = studentQuantile(0.975, degreesOfFreedom) * standardError;
+    return records::Interval{value - half, value + half};
+}
+
+std::ostream& operator<<(std::ostream& out, const RandomObserverFit& fit) {
+    out << (fit.converged ? "converged" : "not converged: " + fit.message) << "; ln L "
+        << fit.logLikelihood << ", " << fit.evaluations << " evaluations; beta";
+    for (const double beta : fit.parameters.beta) out << ' ' << beta;
+    out << ", lapse " << fit.parameters.lapse << (fit.lapseAtBound ? " (on its bound)" : "")
+        << ", tau " << fit.parameters.tau << (fit.tauAtZero ? " (none found)" : "") << ", omega "
+        << fit.parameters.omega << (fit.omegaAtZero ? " (none found)" : "");
+    return out;
+}
+
+}  // namespace analysis

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/slope_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "analysis/distributions.h"
+#include "analysis/slope_model.h"
+
+namespace analysis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+VectorXd unitVector(Index size, Index at) {
+    VectorXd unit = VectorXd::Zero(size);
+    unit[at] = 1;
+    return unit;
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+    return text;
+}
+
+void lap(StageTimes* times, const char* stage) {
+    if (times) times->lap(stage);
+}
+
+Study screened(const Study& study, SlopeAnalysis& result) {
+    result.screening = screen(study, result.options.screening);
+    Study kept = withoutExcluded(study, result.screening);
+    if (kept.observers.empty()) {
+        std::vector<std::string> reasons;
+        for (const ScreenedObserver& row : result.screening) {
+            reasons.push_back("participant " + row.id + ": " + row.reason);
+        }
+        throw std::runtime_error(study.files.front().string() +
+                                 ": no observer passes the screening: " + joined(reasons));
+    }
+    return kept;
+}
+
+// Groups without a threshold. One that lies below every radius shown cannot be the worst and is
+// left out; one that lies above might be, so that there is no headline.
+Study withThresholds(const Study& study, double criterion, std::vector<std::string>& notices,
+                     std::vector<std::string>& groupFlags) {
+    const std::vector<GroupCheck> checks = checkGroups(study, criterion);
+    std::vector<bool> keep(study.conditions.size());
+    bool any = false;
+    for (std::size_t g = 0; g < checks.size(); ++g) {
+        const std::string where = study.files.front().parent_path().string() + ": ";
+        if (checks[g].state == GroupState::aboveShown) {
+            throw std::runtime_error(where + checks[g].sentence +
+                                     ", so that the largest slope is not known");
+        }
+        const bool estimable = checks[g].state == GroupState::estimable;
+        if (estimable) {
+            groupFlags.push_back(checks[g].oneRadius ? "one radius only: rests on the prior of beta"
+                                                     : "");
+        } else {
+            notices.push_back(checks[g].sentence + ": group left out");
+        }
+        any = any || estimable;
+        for (std::size_t k = 0; k < keep.size(); ++k) {
+            if (study.conditions[k].group == g) keep[k] = estimable;
+        }
+    }
+    if (!any) {
+        throw std::runtime_error(study.files.front().parent_path().string() +
+                                 ": no slope can be fitted: " + checks.front().sentence);
+    }
+    return subset(study, std::vector<bool>(study.observers.size(), true), keep);
+}
+
+// Fits from the study's own start, or from a fit of a nested design (whose columns come first).
+RandomObserverFit fit(const Study& study, MatrixXd design, double criterion, FitOptions options,
+                      const RandomObserverFit* from = nullptr) {
+    const Model model = slopeModel(study, std::move(design), criterion);
+    Start start = startOf(study, model);
+    options.estimateTau = options.estimateTau && start.estimateTau;
+    options.estimateOmega = options.estimateOmega && start.estimateOmega;
+    if (from) {
+        const ModelParameters& at = from->parameters;
+        start.parameters.beta = at.beta;
+        // Off the bounds, where the likelihood is level in its coordinates.
+        start.parameters.lapse = std::clamp(at.lapse, 0.001, 0.149);
+        if (options.estimateTau) start.parameters.tau = std::max(0.01, at.tau);
+        if (options.estimateOmega) start.parameters.omega = std::max(0.01, at.omega);
+        if (at.fixed.size() <= model.design.cols()) {
+            start.parameters.fixed.setZero();
+            start.parameters.fixed.head(at.fixed.size()) = at.fixed;
+        }
+    }
+    return fitRandomObservers(model, start.parameters, options);
+}
+
+RatioTest ratioTest(const RandomObserverFit& narrow, const RandomObserverFit& wide,
+                    int degreesOfFreedom) {
+    const double statistic = std::max(0.0, 2 * (wide.logLikelihood - narrow.logLikelihood));
+    return {statistic, degreesOfFreedom, chiSquaredSurvival(statistic, degreesOfFreedom)};
+}
+
+constexpr FitOptions kForRatio{.form = LikelihoodForm::plain, .covariance = false};
+
+void noteConvergence(const RandomObserverFit& fit, const std::string& what,
+                     std::vector<std::string>& notices) {
+    if (fit.converged && fit.message.empty()) return;
+    std::ostringstream text;
+    text << what << ": " << fit;
+    if (fit.converged) text << "; " << fit.message;
+    notices.push_back(text.str());
+}
+
+// The plain likelihood of the law, for ratios; from the restricted fit it is a few steps away.
+RandomObserverFit plainLaw(const Study& study, double criterion, const RandomObserverFit& law) {
+    return fit(study, perGroupDesign(study), criterion, kForRatio, &law);
+}
+
+void testTheLaw(const Study& study, double criterion, const MatrixXd& design,
+                const RandomObserverFit& narrow, SlopeResult& result,
+                std::vector<std::string>& notices) {
+    const RandomObserverFit wide = fit(study, design, criterion, kForRatio, &result.law);
+    // Column for column the design of the law with one more.
+    result.sizeFit = fit(study, design, criterion, {}, &wide);
+    noteConvergence(*result.sizeFit, "fit of kappa", notices);
+    result.kappa = linearEstimate(*result.sizeFit, unitVector(design.cols(), design.cols() - 1));
+    result.kappa->value += 1;
+    if (!narrow.converged || !wide.converged) {
+        notices.push_back("test of kappa = 1: left out, since a fit did not converge");
+        return;
+    }
+    result.kappaTest = ratioTest(narrow, wide, 1);
+    result.lawRejected = result.kappaTest->pValue < kLawLevel && result.sizeFit->converged;
+}
+
+void chooseHeadline(const Study& study, std::uint64_t seed, SlopeResult& result) {
+    if (!result.lawRejected) {
+        const auto n = static_cast<Index>(study.groups.size());
+        result.headline = worstGroup(result.law, MatrixXd::Identity(n, n), seed);
+        result.worstGroup = study.groups[static_cast<std::size_t>(result.headline.index)].name;
+        return;
+    }
+    // log10 c at size a = log10 c at a0 + (kappa - 1) log10(a/a0): a condition's row of the design.
+    result.headline = worstGroup(*result.sizeFit, *sizeExponentDesign(study), seed);
+    const Condition& worst = study.conditions[static_cast<std::size_t>(result.headline.index)];
+    result.worstGroup = study.groups[worst.group].name;
+    result.worstArtifactPx = worst.artifactPx;
+}
+
+// `plain` is filled where the test of the law needed it.
+SlopeResult slopeOf(const Study& study, const AnalysisOptions& options,
+                    std::vector<std::string>& notices, std::optional<RandomObserverFit>& plain,
+                    StageTimes* times) {
+    SlopeResult result;
+    result.law = fit(study, perGroupDesign(study), options.criterion, {});
+    noteConvergence(result.law, "fit of the law", notices);
+    lap(times, "fit of the law");
+    if (const auto design = sizeExponentDesign(study)) {
+        plain = plainLaw(study, options.criterion, result.law);
+        testTheLaw(study, options.criterion, *design, *plain, result, notices);
+        lap(times, "test of the law");
+    }
+    chooseHeadline(study, options.seed, result);
+    lap(times, "headline and its interval");
+    return result;
+}
+
+std::pair<int, int> countsOf(const Study& study, std::size_t group,
+                             std::optional<std::size_t> condition) {
+    int observers = 0, trials = 0;
+    for (const Observer& observer : study.observers) {
+        int own = 0;
+        for (const Cell& cell : observer.cells) {
+            const bool counts = condition ? cell.condition == *condition
+                                          : study.conditions[cell.condition].group == group;
+            own += counts ? static_cast<int>(cell.trials.size()) : 0;
+        }
+        observers += own > 0 ? 1 : 0;
+        trials += own;
+    }
+    return {observers, trials};
+}
+
+// A slope of its own per condition, for those that have a threshold.
+void fitConditions(SlopeAnalysis& result) {
+    const std::vector<GroupCheck> checks = checkConditions(result.study, result.options.criterion);
+    std::vector<bool> keep;
+    for (const GroupCheck& check : checks) keep.push_back(check.state == GroupState::estimable);
+    const Study estimable =
+        subset(result.study, std::vector<bool>(result.study.observers.size(), true), keep);
+    RandomObserverFit own;
+    if (!estimable.conditions.empty()) {
+        own = fit(estimable, perConditionDesign(estimable), result.options.criterion, {},
+                  &result.slope.law);
+        noteConvergence(own, "fit of the single conditions", result.notices);
+    }
+    Index column = 0;
+    for (std::size_t k = 0; k < checks.size(); ++k) {
+        ConditionResult row;
+        std::tie(row.observers, row.trials) = countsOf(result.study, 0, k);
+        row.flag = keep[k] ? (checks[k].oneRadius ? "one radius only" : "") : checks[k].sentence;
+        if (keep[k] && own.converged) {
+            row.c = linearEstimate(own, unitVector(own.parameters.fixed.size(), column));
+        }
+        column += keep[k] ? 1 : 0;
+        result.conditions.push_back(std::move(row));
+    }
+}
+
+void describeGroups(SlopeAnalysis& result, const std::vector<std::string>& flags) {
+    const auto n = static_cast<Index>(result.study.groups.size());
+    for (Index g = 0; g < n; ++g) {
+        const auto group = static_cast<std::size_t>(g);
+        GroupResult row{
+            .c = linearEstimate(result.slope.law, unitVector(n, g)),
+            .flag = flags[group],
+            .twoStage = twoStage(result.study, result.thresholds, group),
+            .throughOrigin = leastSquaresThroughOrigin(result.study, result.thresholds, group)};
+        std::tie(row.observers, row.trials) = countsOf(result.study, group, std::nullopt);
+        result.groups.push_back(std::move(row));
+    }
+    result.overall =
+        linearEstimate(result.slope.law, VectorXd::Constant(n, 1.0 / static_cast<double>(n)));
+}
+
+// The same with everyone, where screening excluded somebody.
+void includeEveryone(const Study& all, SlopeAnalysis& result) {
+    const bool excluded = std::any_of(result.screening.begin(), result.screening.end(),
+                                      [](const ScreenedObserver& row) { return row.excluded; });
+    if (!excluded) return;
+    std::vector<std::string> notices, flags;
+    std::optional<RandomObserverFit> plain;
+    try {
+        const Study everyone = withThresholds(all, result.options.criterion, notices, flags);
+        result.everyone = slopeOf(everyone, result.options, notices, plain, nullptr);
+    } catch (const std::runtime_error& error) {
+        notices.push_back(error.what());
+    }
+    for (const std::string& notice : notices) {
+        result.notices.push_back("with everyone: " + notice);
+    }
+}
+
+void compare(const Study& all, std::optional<RandomObserverFit> plain, SlopeAnalysis& result,
+             StageTimes* times) {
+    const Study& study = result.study;
+    const double criterion = result.options.criterion;
+    if (study.groups.size() >= 2) {
+        if (!plain) plain = plainLaw(study, criterion, result.slope.law);
+        const RandomObserverFit equal =
+            fit(study, oneSlopeDesign(study), criterion, kForRatio, &result.slope.law);
+        if (equal.converged && plain->converged) {
+            result.equalGroupsTest =
+                ratioTest(equal, *plain, static_cast<int>(study.groups.size()) - 1);
+        }
+    }
+    if (const auto design = contrastDesign(study)) {
+        const RandomObserverFit contrast = fit(study, *design, criterion, {}, &result.slope.law);
+        noteConvergence(contrast, "fit of the contrast exponent", result.notices);
+        result.contrastExponent =
+            linearEstimate(contrast, unitVector(design->cols(), design->cols() - 1));
+    } else {
+        result.absent.push_back("contrast exponent: no pattern was shown at two lit levels");
+    }
+    lap(times, "tests");
+    fitConditions(result);
+    lap(times, "conditions");
+    result.pooled =
+        fitPooled(slopeModel(study, perGroupDesign(study), criterion), result.slope.law.parameters);
+    lap(times, "pooled fit");
+    includeEveryone(all, result);
+    lap(times, "with everyone");
+}
+
+void nameAbsences(SlopeAnalysis& result) {
+    const RandomObserverFit& law = result.slope.law;
+    if (law.observers < 2) {
+        result.absent.push_back(
+            "every interval of c: one observer says nothing about how observers differ");
+    } else if (law.covariance.size() == 0) {
+        result.absent.push_back("every interval of c: " + law.message);
+    }
+    if (!result.slope.kappa) {
+        result.absent.push_back("exponent kappa and its test: no group has two artifact sizes");
+    }
+    if (law.parameters.omega == 0 && !law.omegaAtZero) {
+        result.absent.push_back(
+            "spread of observer x condition: no more cells than observers and slopes; it counts as "
+            "spread between observers");
+    }
+}
+
+double percentAtThreshold(const Study& study, const RandomObserverFit& law, double criterion) {
+    double sum = 0;
+    for (const Observer& observer : study.observers) {
+        const double gamma = guessingRate(observer, study.task);
+        sum += quest::responseProbability(criterion,
+                                          quest::ResponseModel{gamma, law.parameters.lapse, gamma});
+    }
+    return 100 * sum / static_cast<double>(study.observers.size());
+}
+
+}  // namespace
+
+SlopeAnalysis analyseSlope(const Study& study, const AnalysisOptions& options, StageTimes* times) {
+    if (!(options.criterion > 0 && options.criterion < 1)) {
+        throw std::invalid_argument("criterion " + std::to_string(options.criterion) +
+                                    ": must be a probability between 0 and 1");
+    }
+    SlopeAnalysis result;
+    result.options = options;
+    result.notices = study.notices;
+    std::vector<std::string> flags;
+    result.study =
+        withThresholds(screened(study, result), options.criterion, result.notices, flags);
+    lap(times, "screening");
+    std::optional<RandomObserverFit> plain;
+    result.slope = slopeOf(result.study, options, result.notices, plain, times);
+
+    const RandomObserverFit& law = result.slope.law;
+    const Model model = slopeModel(result.study, perGroupDesign(result.study), options.criterion);
+    result.thresholds = cellThresholds(result.study, model, law.parameters);
+    result.twoStage = twoStage(result.study, result.thresholds);
+    result.throughOrigin = leastSquaresThroughOrigin(result.study, result.thresholds);
+    describeGroups(result, flags);
+    result.percentAtThreshold = percentAtThreshold(result.study, law, options.criterion);
+    nameAbsences(result);
+    lap(times, "two-stage thresholds");
+    if (options.comparisons) compare(study, std::move(plain), result, times);
+    return result;
+}
+
+}  // namespace analysis

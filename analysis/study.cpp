@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+
+#include "records/session_sidecar.h"
+
+namespace analysis {
+namespace {
+
+using records::Pattern;
+using records::Task;
+using records::Trial;
+using records::TrialTable;
+using records::TrialType;
+
+constexpr const char* kNoiseColumn = "noise_levels";
+
+std::string numberText(double value) {
+    std::ostringstream out;
+    out << std::setprecision(6) << value;
+    return out.str();
+}
+
+std::string where(const TrialTable& table, const Trial& trial) {
+    return table.file.string() + ", trial " + std::to_string(trial.number);
+}
+
+// Groups in the order of reports: stair, step, lines by angle, frames; then falling lit level.
+using GroupKey = std::tuple<Pattern, double, double>;  // pattern, angle of a line, - lit level
+using ConditionKey = std::pair<GroupKey, double>;
+
+ConditionKey keyOf(const Trial& trial) {
+    const double angle = trial.pattern == Pattern::line ? trial.angleDeg.value_or(-1.0) : -1.0;
+    return {{trial.pattern, angle, -trial.litLevel}, trial.artifactPx};
+}
+
+std::string groupName(const GroupKey& key) {
+    const auto& [pattern, angle, negativeLit] = key;
+    std::string name(records::toText(pattern));
+    if (angle >= 0) name.append(" ").append(numberText(angle)).append(" deg");
+    return name.append(", lit ").append(numberText(-negativeLit));
+}
+
+// What every trial of one fit must share.
+struct Shared {
+    std::string property, value, where;
+
+    void require(const std::string& found, const std::string& place) {
+        if (where.empty()) {
+            value = found;
+            where = place;
+        } else if (found != value) {
+            throw std::runtime_error(place + ": " + property + " " + found + ", but " + where +
+                                     " has " + value + ": a slope stands for one " + property +
+                                     "; fit the tables apart");
+        }
+    }
+};
+
+// Counts of what is left out of a table, by reason.
+class LeftOut {
+  public:
+    void add(const std::string& reason) { ++counts_[reason]; }
+    void report(const std::string& file, std::vector<std::string>& notices) const {
+        for (const auto& [reason, count] : counts_) {
+            notices.push_back(file + ": " + std::to_string(count) +
+                              (count == 1 ? " trial" : " trials") + " left out: " + reason);
+        }
+    }
+
+  private:
+    std::map<std::string, int> counts_;
+};
+
+std::optional<std::size_t> columnOf(const TrialTable& table, const std::string& name) {
+    const auto found = std::find(table.extraColumns.begin(), table.extraColumns.end(), name);
+    if (found == table.extraColumns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - table.extraColumns.begin());
+}
+
+bool hasNoise(const TrialTable& table, const Trial& trial, std::size_t column) {
+    const std::string& text = trial.extra[column];
+    if (text == "n/a") return false;
+    std::size_t used = 0;
+    double level = 0;
+    try {
+        level = std::stod(text, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used != text.size() || !std::isfinite(level)) {
+        throw std::runtime_error(where(table, trial) + ", column " + kNoiseColumn + ": '" + text +
+                                 "': must be a number or n/a");
+    }
+    return level > 0;
+}
+
+// Trials by observer and condition, before indices are given.
+struct Gathered {
+    struct Person {
+        std::map<ConditionKey, std::vector<StudyTrial>> cells;
+        int references = 0, falseAlarms = 0, catchTrials = 0, catchFailures = 0;
+    };
+    std::map<std::string, Person> people;
+    std::map<GroupKey, std::set<double>> angles;  // as the trials of the group give them
+    Shared task{"task", {}, {}}, kernel{"kernel", {}, {}}, encoding{"encoding", {}, {}};
+};
+
+void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& notices) {
+    LeftOut leftOut;
+    const auto noise = columnOf(table, kNoiseColumn);
+    const bool staircases =
+        std::any_of(table.trials.begin(), table.trials.end(),
+                    [](const Trial& trial) { return trial.staircase.has_value(); });
+    Gathered::Person& person = into.people[table.participant];
+    for (const Trial& trial : table.trials) {
+        if (trial.status != records::TrialStatus::ok) {
+            leftOut.add("status " + std::string(records::toText(trial.status)));
+            continue;
+        }
+        if (noise && hasNoise(table, trial, *noise)) {
+            leftOut.add("image noise was added (noise_levels > 0)");
+            continue;
+        }
+        const std::string place = where(table, trial);
+        into.task.require(std::string(records::toText(trial.task)), place);
+        into.kernel.require(trial.kernel, place);
+        into.encoding.require(
+            trial.encoding ? std::string(records::toText(*trial.encoding)) : "n/a", place);
+        const bool yesNo = trial.task == Task::yesNo;
+        if (trial.type == TrialType::reference) {
+            if (!yesNo) {
+                leftOut.add("a reference trial in 2AFC tests nothing");
+                continue;
+            }
+            ++person.references;
+            person.falseAlarms += trial.response == records::Response::seen ? 1 : 0;
+            continue;
+        }
+        if (!(trial.litLevel > 0)) {
+            leftOut.add("lit level 0 shows no edge");
+            continue;
+        }
+        const bool catchTrial = !yesNo && staircases && !trial.staircase;
+        const bool yes = yesNo ? trial.response == records::Response::seen : trial.correct;
+        if (catchTrial) {
+            ++person.catchTrials;
+            person.catchFailures += yes ? 0 : 1;
+        }
+        const ConditionKey key = keyOf(trial);
+        person.cells[key].push_back({.radiusPx = trial.filterRadiusPx,
+                                     .proposedPx = trial.proposedRadiusPx,
+                                     .yes = yes,
+                                     .catchTrial = catchTrial});
+        if (trial.angleDeg) into.angles[key.first].insert(*trial.angleDeg);
+    }
+    leftOut.report(table.file.string(), notices);
+}
+
+void refuseTwice(std::span<const TrialTable> tables) {
+    std::map<std::pair<std::string, std::string>, std::filesystem::path> seen;
+    for (const TrialTable& table : tables) {
+        const auto [at, isNew] =
+            seen.insert({{table.participant, table.session.value_or("")}, table.file});
+        if (!isNew) {
+            throw std::runtime_error(table.file.string() + ": participant " + table.participant +
+                                     (table.session ? ", session " + *table.session : "") +
+                                     " is also in " + at->second.string() +
+                                     ": two observers must not share an id");
+        }
+    }
+}
+
+Study indexed(Gathered&& gathered) {
+    Study study;
+    std::map<ConditionKey, std::size_t> conditionIndex;
+    for (const auto& [id, person] : gathered.people) {
+        for (const auto& [key, trials] : person.cells) conditionIndex[key] = 0;
+    }
+    std::map<GroupKey, std::size_t> groupIndex;
+    for (auto& [key, index] : conditionIndex) {  // sorted: groups come in one piece
+        const auto [at, isNew] = groupIndex.insert({key.first, study.groups.size()});
+        if (isNew) {
+            const std::set<double>& angles = gathered.angles[key.first];
+            study.groups.push_back(
+                {.name = groupName(key.first),
+                 .pattern = std::get<0>(key.first),
+                 .angleDeg = angles.size() == 1 ? std::optional(*angles.begin()) : std::nullopt,
+                 .litLevel = -std::get<2>(key.first)});
+        }
+        index = study.conditions.size();
+        study.conditions.push_back({.group = at->second, .artifactPx = key.second});
+    }
+    for (auto& [id, person] : gathered.people) {
+        if (person.cells.empty()) {
+            study.notices.push_back("participant " + id + " has no trial to fit: left out");
+            continue;
+        }
+        Observer observer{.id = id,
+                          .cells = {},
+                          .references = person.references,
+                          .falseAlarms = person.falseAlarms,
+                          .catchTrials = person.catchTrials,
+                          .catchFailures = person.catchFailures};
+        for (auto& [key, trials] : person.cells) {
+            observer.cells.push_back({conditionIndex[key], std::move(trials)});
+        }
+        study.observers.push_back(std::move(observer));
+    }
+    return study;
+}
+
+std::optional<double> meanPxPerDeg(std::span<const std::filesystem::path> tables) {
+    double sum = 0;
+    for (const std::filesystem::path& table : tables) {
+        const std::filesystem::path sidecar = records::sidecarPath(table);
+        if (!std::filesystem::exists(sidecar)) return std::nullopt;
+        const auto pxPerDeg = records::readSidecar(sidecar).pxPerDeg;
+        if (!pxPerDeg) return std::nullopt;
+        sum += *pxPerDeg;
+    }
+    return sum / static_cast<double>(tables.size());
+}
+
+}  // namespace
+
+Study studyOf(std::span<const TrialTable> tables) {
+    refuseTwice(tables);
+    Gathered gathered;
+    std::vector<std::string> notices;
+    for (const TrialTable& table : tables) {
+        notices.insert(notices.end(), table.notices.begin(), table.notices.end());
+        gather(table, gathered, notices);
+    }
+    const std::string task = gathered.task.value, encoding = gathered.encoding.value;
+    const std::string kernel = gathered.kernel.value;
+    Study study = indexed(std::move(gathered));
+    study.notices.insert(study.notices.begin(), notices.begin(), notices.end());
+    if (study.observers.empty()) {
+        const std::string first = tables.empty() ? "" : tables.front().file.string() + ": ";
+        throw std::runtime_error(first + std::to_string(tables.size()) +
+                                 (tables.size() == 1 ? " table" : " tables") +
+                                 " without a trial to fit: at least one artifact trial with status "
+                                 "ok is needed");
+    }
+    study.task = *records::taskFromText(task);
+    study.kernel = kernel;
+    study.encoding = records::encodingFromText(encoding);
+    for (const TrialTable& table : tables) study.files.push_back(table.file);
+    return study;
+}
+
+Study loadStudy(std::span<const std::filesystem::path> paths) {
+    std::set<std::filesystem::path> files;
+    for (const std::filesystem::path& path : paths) {
+        const auto found = records::findTrialTables(path);
+        files.insert(found.begin(), found.end());
+    }
+    std::vector<TrialTable> tables;
+    for (const std::filesystem::path& file : files) tables.push_back(records::readTrialTable(file));
+    Study study = studyOf(tables);
+    study.pxPerDeg = meanPxPerDeg(study.files);
+    return study;
+}
+
+double guessingRate(const Observer& observer, Task task) {
+    if (task == Task::twoAfc) return 0.5;
+    return (observer.falseAlarms + 0.5) / (observer.references + 1.0);
+}
+
+int trialCount(const Study& study) {
+    int count = 0;
+    for (std::size_t g = 0; g < study.groups.size(); ++g) count += trialCount(study, g);
+    return count;
+}
+
+int trialCount(const Study& study, std::size_t group) {
+    std::size_t count = 0;
+    for (const Observer& observer : study.observers) {
+        for (const Cell& cell : observer.cells) {
+            if (study.conditions[cell.condition].group == group) count += cell.trials.size();
+        }
+    }
+    return static_cast<int>(count);
+}
+
+double referenceArtifactPx(const Study& study) {
+    std::set<double> sizes;
+    for (const Condition& condition : study.conditions) sizes.insert(condition.artifactPx);
+    double sum = 0;
+    for (const double size : sizes) sum += std::log(size);
+    return std::exp(sum / static_cast<double>(sizes.size()));
+}
+
+std::string conditionName(const Study& study, std::size_t index) {
+    const Condition& condition = study.conditions[index];
+    return study.groups[condition.group].name + ", a " + numberText(condition.artifactPx);
+}
+
+Study subset(const Study& study, const std::vector<bool>& keepObserver,
+             const std::vector<bool>& keepCondition) {
+    Study kept = study;
+    kept.observers.clear();
+    std::vector<bool> used(study.conditions.size(), false);
+    for (std::size_t i = 0; i < study.observers.size(); ++i) {
+        if (!keepObserver[i]) continue;
+        Observer observer = study.observers[i];
+        std::erase_if(observer.cells,
+                      [&](const Cell& cell) { return !keepCondition[cell.condition]; });
+        if (observer.cells.empty()) continue;
+        for (const Cell& cell : observer.cells) used[cell.condition] = true;
+        kept.observers.push_back(std::move(observer));
+    }
+    kept.groups.clear();
+    kept.conditions.clear();
+    std::vector<std::size_t> newCondition(study.conditions.size()), newGroup(study.groups.size());
+    std::vector<bool> groupSeen(study.groups.size(), false);
+    for (std::size_t k = 0; k < study.conditions.size(); ++k) {
+        if (!used[k]) continue;
+        const std::size_t group = study.conditions[k].group;
+        if (!groupSeen[group]) {
+            groupSeen[group] = true;
+            newGroup[group] = kept.groups.size();
+            kept.groups.push_back(study.groups[group]);
+        }
+        newCondition[k] = kept.conditions.size();
+        kept.conditions.push_back({newGroup[group], study.conditions[k].artifactPx});
+    }
+    for (Observer& observer : kept.observers) {
+        for (Cell& cell : observer.cells) cell.condition = newCondition[cell.condition];
+    }
+    return kept;
+}
+
+}  // namespace analysis

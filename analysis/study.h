@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The trials of a study, as the fit sees them: observers x conditions, with everything that does
+// not enter a fit left out and said so.
+//
+//     const analysis::Study study = analysis::loadStudy({"data"});
+//     for (const std::string& notice : study.notices) std::cerr << notice << '\n';
+//
+// A group is a pattern (of lines: an angle) at a lit level: the unit that has a slope c of its own.
+// The conditions of a group are its artifact sizes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "records/trial_table.h"
+
+namespace analysis {
+
+struct Group {
+    std::string name;  ///< "stair, lit 1", "line 22.5 deg, lit 1"
+    records::Pattern pattern = records::Pattern::stair;
+    std::optional<double> angleDeg;  ///< of lines; else where all its trials have the same one
+    double litLevel = 1;
+};
+
+struct Condition {
+    std::size_t group = 0;  ///< index into Study::groups
+    double artifactPx = 0;
+};
+
+struct StudyTrial {
+    double radiusPx = 0;  ///< shown
+    std::optional<double> proposedPx;
+    bool yes = false;         ///< 2AFC: correct; yes/no: seen
+    bool catchTrial = false;  ///< 2AFC: not placed by a staircase although others are
+};
+
+struct Cell {
+    std::size_t condition = 0;       ///< index into Study::conditions
+    std::vector<StudyTrial> trials;  ///< at least one, in file order
+};
+
+struct Observer {
+    std::string id;
+    std::vector<Cell> cells;                 ///< at least one, by condition
+    int references = 0;                      ///< yes/no: artifact-free trials
+    int falseAlarms = 0;                     ///< of them answered "seen"
+    int catchTrials = 0, catchFailures = 0;  ///< 2AFC
+};
+
+struct Study {
+    std::vector<Group> groups;          ///< by pattern, angle, falling lit level
+    std::vector<Condition> conditions;  ///< by group, artifact size
+    std::vector<Observer> observers;    ///< by id
+    records::Task task = records::Task::twoAfc;
+    std::string kernel;
+    std::optional<records::Encoding> encoding;  ///< absent where no table says it
+    std::optional<double> pxPerDeg;             ///< mean over sessions, where every sidecar has it
+    std::vector<std::filesystem::path> files;
+    std::vector<std::string> notices;  ///< what was left out, and why
+};
+
+/// Every table named, or found below a folder named. Sessions of one participant are joined. Throws
+/// std::runtime_error, located: no table, a malformed table (records/trial_table.h), two tables of
+/// one session, tables that differ in task, kernel or encoding (one slope stands for one of each),
+/// nothing left to fit.
+Study loadStudy(std::span<const std::filesystem::path> paths);
+
+/// The same of tables already read; sidecars are not looked for.
+Study studyOf(std::span<const records::TrialTable> tables);
+
+/// P(yes) without detection: .5 in 2AFC; yes/no: the false-alarm rate, shrunk ((FA + .5)/(n + 1)).
+double guessingRate(const Observer& observer, records::Task task);
+
+int trialCount(const Study& study);
+int trialCount(const Study& study, std::size_t group);
+/// Geometric mean of the distinct artifact sizes, px: where c and the size exponent are least
+/// entangled.
+double referenceArtifactPx(const Study& study);
+std::string conditionName(const Study& study, std::size_t condition);  ///< "stair, lit 1, a 10"
+
+/// The study with only those observers and conditions for which `observer[i]`, `condition[k]` is
+/// true; groups, conditions and observers that lose all their trials go too.
+Study subset(const Study& study, const std::vector<bool>& observer,
+             const std::vector<bool>& condition);
+
+}  // namespace analysis
