@@ -4,24 +4,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <string_view>
 
 #include "records/number_rule.h"
 #include "records/quoted_text.h"
+#include "stimulus/kernel.h"
+#include "stimulus/silhouette.h"
+#include "stimulus/stimulus_image.h"
 
 namespace study_app {
 namespace {
 
 using records::exactText;
 
-constexpr std::array<std::string_view, 3> kKernels{"disc", "box", "gaussian"};
 constexpr std::array<double, 3> kRadiusSteps{0.25, 0.5, 1};
 
-// Bounds against slips of the keyboard, far beyond what a person can sit through or a screen show.
+// Against slips of the keyboard: far beyond what a person can sit through.
 constexpr int kMostTrials = 100000;
-constexpr int kLargestWindowPx = 16384;
 
 std::string problem(const std::string& field, const std::string& value, const std::string& rule) {
     return field + ": " + value + ": " + rule;
@@ -67,7 +67,8 @@ std::string noConditions(const std::string& field, const List& list) {
 }
 
 std::string checkWindow(const Design& d) {
-    return broken("window_px", d.windowPx, records::between(16, kLargestWindowPx), "whole number");
+    return broken("window_px", d.windowPx, records::between(16, stimulus::kMaxWindowPx),
+                  "whole number");
 }
 
 std::string checkSizes(const Design& d) {
@@ -133,7 +134,7 @@ std::string checkLitLevels(const Design& d) {
 std::string checkKernels(const Design& d) {
     if (auto found = noConditions("kernels", d.kernels); !found.empty()) return found;
     for (std::size_t i = 0; i < d.kernels.size(); ++i) {
-        if (std::find(kKernels.begin(), kKernels.end(), d.kernels[i]) == kKernels.end()) {
+        if (!stimulus::kernelShapeFromText(d.kernels[i])) {
             return problem(indexed("kernels", i), records::quotedText(d.kernels[i]),
                            "must be one of disc, box, gaussian");
         }
@@ -264,9 +265,12 @@ std::string conditionName(const Design& design, const Condition& c) {
 }
 
 double trueAngleDeg(const Design& design, const Silhouette& s, int artifactPx) {
-    if (s.pattern == records::Pattern::line) return s.angleDeg.value_or(0);
-    if (s.pattern == records::Pattern::stair) return 45;
-    return std::atan(static_cast<double>(artifactPx) / design.windowPx) * 180 / std::numbers::pi;
+    stimulus::SilhouetteOptions options{.artifactPx = static_cast<double>(artifactPx),
+                                        .riserSpacingPx = static_cast<double>(design.windowPx)};
+    if (s.pattern == records::Pattern::step) options.pattern = stimulus::Pattern::step;
+    if (s.pattern == records::Pattern::line) options.pattern = stimulus::Pattern::line;
+    options.angleDeg = s.angleDeg.value_or(options.angleDeg);
+    return stimulus::trueAngleDeg(options);
 }
 
 }  // namespace

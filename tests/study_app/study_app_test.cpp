@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -98,15 +99,15 @@ int waitFor(pid_t child) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Waits until the file has `bytes` or the child has ended.
+/// Waits until the file exists and has `bytes`, or the child has ended.
 void waitForSize(const fs::path& file, std::uintmax_t bytes, pid_t child) {
-    std::error_code error;
-    const auto size = [&] {
-        const std::uintmax_t found = fs::file_size(file, error);
-        return error ? 0 : found;
+    const auto isThere = [&] {
+        std::error_code missing;
+        const std::uintmax_t size = fs::file_size(file, missing);
+        return !missing && size >= bytes;
     };
     siginfo_t ended{};
-    while (size() < bytes && ended.si_pid == 0) {
+    while (!isThere() && ended.si_pid == 0) {
         std::this_thread::sleep_for(std::chrono::microseconds(50));
         waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
     }
@@ -133,7 +134,8 @@ void expectResumes(const study_app::SessionRequest& request, const std::string& 
 
 // Half of the kills hit one session, resumed again and again, within 0.4 ms after its table has
 // grown by a random part of up to an eighth; the other half hit sessions that start from nothing,
-// within 10 ms of the program's start, where it makes folders, table and sidecar.
+// within 3 ms after the table appears, where the header, the sidecar and the first rows are
+// written.
 TEST(StudyApp, LosesNoTrialWhenKilledAtRandomMoments) {
     const tests::TemporaryFolder folder;
     const fs::path reference = folder.path() / "reference", data = folder.path() / "data";
@@ -148,11 +150,9 @@ TEST(StudyApp, LosesNoTrialWhenKilledAtRandomMoments) {
         request.session = fresh ? "fresh" + std::to_string(kills) : "long";
         const fs::path table = tableIn(data, *request.session);
         const pid_t child = start(headless(data, "paper16", *request.session));
-        if (!fresh) {
-            const std::uint64_t further = quest::uniformBelow(rng, whole.size() / 8);
-            waitForSize(table, contents(table).size() + further, child);
-        }
-        const std::uint64_t delayUs = quest::uniformBelow(rng, fresh ? 10000 : 400);
+        const std::uint64_t further = quest::uniformBelow(rng, whole.size() / 8);
+        waitForSize(table, fresh ? 0 : contents(table).size() + further, child);
+        const std::uint64_t delayUs = quest::uniformBelow(rng, fresh ? 3000 : 400);
         std::this_thread::sleep_for(std::chrono::microseconds(delayUs));
         const std::string before = contents(table);
         kill(child, SIGKILL);
@@ -274,9 +274,12 @@ TEST(StudyApp, AnswersMisuseWithOneSentence) {
     };
     std::vector<std::string> both = headless(data, "quick");
     both.insert(both.end(), {"--observers", "2"});
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
     const std::vector<Misuse> misuses{
-        {{}, 1, "window"},
-        {{"--design", "quick", "--data", data, "--participant", "01"}, 1, "--headless"},
+        {{}, 1, "display"},
+        {{"--design", "quick", "--data", data, "--participant", "01"}, 1, "display"},
+        {{"--design", "quick", "--observer", "simulated"}, 2, "--headless"},
         {{"--headless"}, 2, "--design"},
         {{"--headless", "--design", "quick", "--data", data, "--observer", "simulated", "--seed",
           "1"},
