@@ -185,7 +185,7 @@ const TrialColumn kColumns[] = {
     {"status", kOptional, "Only ok rows enter a fit", "",
      {{"ok", "a valid trial"}, {"undone", "taken back by the observer"}, {"repeated", "disturbed and shown again"}, {"too_fast", "answered faster than anyone can see"}},
      STAIRWELL_WORD(status, kTrialStatusWords)},
-    {"staircase", kOptional, "Name of the staircase that proposed the radius", "", {}, STAIRWELL_TEXT(staircase)},
+    {"staircase", kOptional, "Name of the staircase that proposed the radius and learns from the answer; n/a on catch trials", "", {}, STAIRWELL_TEXT(staircase)},
     {"encoding", kOptional, "What the filter averaged", "", {{"srgb", "light; the display code is sRGB-encoded"}, {"code", "code values"}}, STAIRWELL_WORD(encoding, kEncodingWords)},
     {"side", kOptional, "Side of the artifact", "", {{"left", "left panel"}, {"right", "right panel"}}, readSide, writeText<&Trial::side>},
     {"orientation_quarter", kOptional, "Rotation of the stimulus in quarter turns", "", {}, STAIRWELL_NUMBER(orientationQuarter, kQuarterRule)},

@@ -95,7 +95,8 @@ struct Trial {
 
     // Written by study_app, optional for a reader:
     TrialStatus status = TrialStatus::ok;
-    std::optional<std::string> staircase;  ///< name of the staircase that proposed the radius
+    std::optional<std::string> staircase;  ///< name of the staircase that learns from the trial; none on
+                                           ///< catch trials (study_app/session.h)
     std::optional<Encoding> encoding;
     std::optional<std::string> side;        ///< side of the artifact, "left" or "right"
     std::optional<int> orientationQuarter;  ///< quarter turns, 0..3
