@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "resolution_controller/slope.h"
+
 namespace resolution_controller {
 namespace {
 
@@ -12,6 +14,12 @@ constexpr float kAnisotropyLimit = 4;
 
 bool positiveAndFinite(float value) {
     return value > 0 && std::isfinite(value);
+}
+
+/// A texel smaller than a pixel cannot be seen.
+float atMostPerPixel(float texels, float footprint, float pixelBound) {
+    if (!positiveAndFinite(footprint) || !positiveAndFinite(pixelBound)) return texels;
+    return std::min(texels, pixelBound / footprint);
 }
 
 }  // namespace
@@ -30,8 +38,21 @@ float pixelFootprint(const UvDerivatives& d) noexcept {
 float demand(float c, float radiusUv, float footprint, float pixelBound) noexcept {
     if (!positiveAndFinite(c) || !(radiusUv >= 0) || !std::isfinite(radiusUv)) return 0;
     const float forFilter = radiusUv > 0 ? c / radiusUv : std::numeric_limits<float>::infinity();
-    if (!positiveAndFinite(footprint) || !positiveAndFinite(pixelBound)) return forFilter;
-    return std::min(forFilter, pixelBound / footprint);
+    return atMostPerPixel(forFilter, footprint, pixelBound);
+}
+
+float demand(const DemandRule& rule, const DemandPoint& point) noexcept {
+    float c = rule.c;
+    if (rule.contrastExponent != 0) {
+        c *= static_cast<float>(contrastFactor(point.contrast, rule.contrastExponent));
+    }
+    const float forFilter = demand(c, point.radiusUv, 0);
+    if (forFilter == 0) return 0;
+    float forDetail = 0;
+    if (positiveAndFinite(point.casterWidthUv) && positiveAndFinite(rule.texelsPerCaster)) {
+        forDetail = rule.texelsPerCaster / point.casterWidthUv;
+    }
+    return atMostPerPixel(std::max(forFilter, forDetail), point.footprint, rule.pixelBound);
 }
 
 }  // namespace resolution_controller

@@ -38,6 +38,31 @@ float pixelFootprint(const UvDerivatives& derivatives) noexcept;
 /// finite. A footprint that is not positive and finite sets no bound.
 float demand(float c, float radiusUv, float footprint, float pixelBound = 1) noexcept;
 
+/// What a light asks of every point, fixed for a frame; demandRule() of resolution_controller.h
+/// fills it from settings.
+struct DemandRule {
+    float c = 3.47f;             ///< slope of r = c a
+    float pixelBound = 1;        ///< k: texels per pixel that can still be seen
+    float contrastExponent = 0;  ///< e of c(C) = c max(C, .02)^e; 0: off
+    float texelsPerCaster = 2;   ///< texels across the thinnest caster; 0: off
+};
+
+/// What one visible point in penumbra brings along.
+struct DemandPoint {
+    float radiusUv = 0;   ///< filter radius, as a fraction of the map's extent
+    float footprint = 0;  ///< pixelFootprint(); 0: no bound
+    float contrast = 1;   ///< of the shadow's edge here, [0, 1]: 1 is full light against none
+    /// Width on the map of the thinnest caster that shades the point, as a fraction of the map's
+    /// extent; 0: not known, or none is thin. A wide filter lets the law ask for texels that a thin
+    /// bar slips through (Kreuzer, section 7); this asks for enough to hit it.
+    float casterWidthUv = 0;
+};
+
+/// N(p) = min(max(c(C) / r, texels per caster / its width), k / sigma), with what the plain form
+/// above makes of unusable numbers: a contrast outside [0, 1] counts as 1 and a width that is not
+/// positive and finite as none.
+float demand(const DemandRule& rule, const DemandPoint& point) noexcept;
+
 /// log2 histogram of demands: bin b counts N in (2^(b/4), 2^((b+1)/4)]; the first also what is
 /// smaller, the last also what is larger. Laid out as the buffer that a GPU fills.
 struct DemandHistogram {

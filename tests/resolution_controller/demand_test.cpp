@@ -46,6 +46,42 @@ TEST(Demand, AnUnusableFootprintSetsNoBound) {
     }
 }
 
+TEST(Demand, WithoutItsTermsTheRuleIsThePlainForm) {
+    std::mt19937_64 rng(9);
+    std::uniform_real_distribution<float> log10(-6, 1);
+    for (int i = 0; i < 1000; ++i) {
+        const float r = std::pow(10.0f, log10(rng)), footprint = std::pow(10.0f, log10(rng));
+        EXPECT_EQ(rc::demand(rc::DemandRule{.c = 2}, {.radiusUv = r, .footprint = footprint}),
+                  rc::demand(2.0f, r, footprint));
+    }
+}
+
+TEST(Demand, FaintEdgesAskForLess) {
+    const rc::DemandRule rule{.contrastExponent = 0.3f};
+    const float full = rc::demand(rule, {.radiusUv = 0.01f});
+    EXPECT_FLOAT_EQ(full, 347);
+    EXPECT_NEAR(rc::demand(rule, {.radiusUv = 0.01f, .contrast = 0.5f}), 347 * std::pow(0.5, 0.3),
+                1e-3);
+    for (const float unusable : {kNan, -1.0f, 2.0f, kInf}) {
+        EXPECT_EQ(rc::demand(rule, {.radiusUv = 0.01f, .contrast = unusable}), full);
+    }
+}
+
+TEST(Demand, ThinCastersAskForTexelsThatHitThem) {
+    const rc::DemandRule rule{};
+    rc::DemandPoint point{.radiusUv = 0.05f, .casterWidthUv = 0.002f};
+    EXPECT_FLOAT_EQ(rc::demand(rule, point), 1000) << "two texels across it";
+    point.footprint = 1.0f / 600;
+    EXPECT_FLOAT_EQ(rc::demand(rule, point), 600) << "but none smaller than a pixel";
+    point = {.radiusUv = 0.001f, .casterWidthUv = 0.002f};
+    EXPECT_FLOAT_EQ(rc::demand(rule, point), 3470) << "the law asks for more";
+    for (const float unusable : {kNan, -1.0f, 0.0f, kInf}) {
+        point = {.radiusUv = 0.05f, .casterWidthUv = unusable};
+        EXPECT_FLOAT_EQ(rc::demand(rule, point), 69.4f) << unusable;
+    }
+    EXPECT_EQ(rc::demand(rule, {.radiusUv = kNan, .casterWidthUv = 0.002f}), 0);
+}
+
 /// Singular values through the eigenvalues of J'J, in double.
 std::pair<double, double> singularValues(const rc::UvDerivatives& d) {
     const double a = double(d.dudx) * d.dudx + double(d.dvdx) * d.dvdx;
