@@ -88,8 +88,8 @@ void TrialJournal::startTable(const std::string& header) {
         sync();
         syncFolder(file_.has_parent_path() ? file_.parent_path() : ".");
     } catch (const std::runtime_error&) {
-        ::unlink(
-            file_.c_str());  // an empty table would be in the way of everyone who reads the folder
+        // An empty table would be in the way of everyone who reads the folder.
+        ::unlink(file_.c_str());
         throw;
     }
     existing_ = parseTrialTable(header + "\n", file_);

@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <random>
 #include <stdexcept>
@@ -14,6 +16,21 @@
 
 #include "tests/records/random_records.h"
 #include "tests/records/scratch_folder.h"
+
+namespace {
+
+int syncCalls = 0;
+bool syncFails = false;
+
+}  // namespace
+
+// Stands in for the C library's in this test program: counts, and fails like a dying disk when told
+// to.
+extern "C" int fdatasync(int descriptor) {
+    ++syncCalls;
+    if (syncFails) return errno = EIO, -1;
+    return static_cast<int>(::syscall(SYS_fdatasync, descriptor));
+}
 
 namespace {
 
@@ -102,6 +119,15 @@ TEST(TrialJournal, RefusesASecondWriter) {
     first.append(someTrials(1)[0]);
 }
 
+TEST(TrialJournal, KnowsTheLastNumberOfTheTableItGoesOnWith) {
+    const ScratchFolder folder;
+    const auto trials = someTrials(2);
+    TrialJournal(folder / "t.tsv").append(trials[0]);
+    TrialJournal journal(folder / "t.tsv");
+    EXPECT_THROW(journal.append(trials[0]), std::invalid_argument);
+    journal.append(trials[1]);
+}
+
 TEST(TrialJournal, LetsTheNextOneInOnceItIsClosed) {
     const ScratchFolder folder;
     { TrialJournal first(folder / "t.tsv"); }
@@ -172,6 +198,42 @@ TEST(TrialJournal, FullDiskCutsTheTornRowOffAndGoesOnOnceThereIsRoom) {
     });
     EXPECT_EQ(exitCode, 0);
     EXPECT_EQ(readTrialTable(file).trials, trials);
+}
+
+TEST(TrialJournal, SyncsEveryRowBeforeItReturns) {
+    const ScratchFolder folder;
+    TrialJournal journal(folder / "t.tsv");
+    for (const Trial& trial : someTrials(5)) {
+        syncCalls = 0;
+        journal.append(trial);
+        EXPECT_EQ(syncCalls, 1);
+    }
+}
+
+TEST(TrialJournal, SyncsOnceAtTheCloseWhereThatIsAskedFor) {
+    const ScratchFolder folder;
+    {
+        TrialJournal journal(folder / "t.tsv", {}, SyncRows::atClose);
+        syncCalls = 0;
+        for (const Trial& trial : someTrials(5)) journal.append(trial);
+        EXPECT_EQ(syncCalls, 0);
+        EXPECT_THAT(readTrialTable(folder / "t.tsv").trials, SizeIs(5)) << "a kill loses nothing";
+    }
+    EXPECT_EQ(syncCalls, 1);
+}
+
+TEST(TrialJournal, TakesNoMoreRowsAfterTheDiskFailedToSync) {
+    const ScratchFolder folder;
+    const auto trials = someTrials(3);
+    TrialJournal journal(folder / "t.tsv");
+    journal.append(trials[0]);
+    syncFails = true;
+    EXPECT_THAT(errorOf<std::runtime_error>([&] { journal.append(trials[1]); }),
+                HasSubstr("t.tsv: rows cannot be brought to the disk: Input/output error"));
+    syncFails = false;
+    EXPECT_THAT(errorOf<std::runtime_error>([&] { journal.append(trials[2]); }),
+                HasSubstr("t.tsv: takes no more rows after the disk failed"));
+    EXPECT_THAT(readTrialTable(folder / "t.tsv").notices, IsEmpty()) << "complete rows only";
 }
 
 TEST(TrialJournal, LeavesNoEmptyTableWhereTheDiskIsFullAtTheStart) {
