@@ -163,40 +163,74 @@ BenchmarkResult runBenchmark(const renderer::GlInfo& info, const BenchmarkSettin
     return result;
 }
 
+namespace {
+
+/// Geometric mean over a technique's scenes of (time of a fixed size) / (time of the automatic
+/// one); 0 without both.
+double speedAgainst(const BenchmarkResult& result, const renderer::Technique* technique,
+                    int resolution) {
+    double sum = 0;
+    int scenes = 0;
+    for (const BenchmarkGroup& group : result.groups)
+        for (const BenchmarkCell& cell : group.cells) {
+            if (group.technique != technique || cell.chosen.automatic ||
+                cell.chosen.resolution != resolution)
+                continue;
+            const BenchmarkCell* automatic = group.automatic();
+            if (automatic == nullptr) continue;
+            sum += std::log(cell.frameMs.median / automatic->frameMs.median);
+            ++scenes;
+        }
+    return scenes == 0 ? 0 : std::exp(sum / scenes);
+}
+
+std::string formatted(const char* format, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+Headline headlineOf(const BenchmarkResult& result, const BenchmarkGroup& first) {
+    double worstRmse = 0;
+    std::string sizes;
+    std::size_t scenes = 0;
+    for (const BenchmarkGroup& group : result.groups) {
+        const BenchmarkCell* automatic = group.automatic();
+        if (group.technique != first.technique || automatic == nullptr) continue;
+        worstRmse = std::max(worstRmse, automatic->error.rmse);
+        ++scenes;
+        sizes += (sizes.empty() ? "" : ", ") + std::to_string(automatic->chosen.resolution) +
+                 " in " + group.scene;
+    }
+    std::string others;
+    for (const BenchmarkCell& cell : first.cells)
+        if (!cell.chosen.automatic && &cell != &first.reference())
+            others +=
+                (others.empty() ? "; " : ", ") +
+                formatted("%.1fx", speedAgainst(result, first.technique, cell.chosen.resolution)) +
+                " against " + std::to_string(cell.chosen.resolution);
+    const int reference = first.reference().chosen.resolution;
+    const double speed = speedAgainst(result, first.technique, reference);
+    return {formatted("%.1fx", speed) + " the speed",
+            "of the fixed " + std::to_string(reference) +
+                " map, whole frame at the same softness, by automatic size (" +
+                std::string(first.technique->title) + "; N = " + sizes +
+                (scenes > 1 ? "; geometric mean over " + std::to_string(scenes) + " scenes" : "") +
+                others + "), with a resolution error of at most " + formatted("%.4f", worstRmse) +
+                " RMSE in visibility over penumbra pixels"};
+}
+
+}  // namespace
+
 std::vector<Headline> headlines(const BenchmarkResult& result) {
     std::vector<Headline> all;
     std::vector<const renderer::Technique*> done;
-    for (const BenchmarkGroup& first : result.groups) {
-        if (std::find(done.begin(), done.end(), first.technique) != done.end()) continue;
-        done.push_back(first.technique);
-        double logRatio = 0;
-        double worstRmse = 0;
-        int scenes = 0;
-        std::string sizes;
-        for (const BenchmarkGroup& group : result.groups) {
-            const BenchmarkCell* automatic = group.automatic();
-            if (group.technique != first.technique || automatic == nullptr) continue;
-            logRatio += std::log(group.reference().frameMs.median / automatic->frameMs.median);
-            worstRmse = std::max(worstRmse, automatic->error.rmse);
-            ++scenes;
-            sizes += (sizes.empty() ? "" : ", ") + std::to_string(automatic->chosen.resolution) +
-                     " in " + group.scene;
-        }
-        if (scenes == 0) continue;
-        const double ratio = std::exp(logRatio / scenes);
-        char number[64];
-        char error[64];
-        std::snprintf(number, sizeof number, "%.1fx %s", ratio >= 1 ? ratio : 1 / ratio,
-                      ratio >= 1 ? "faster" : "slower");
-        std::snprintf(error, sizeof error, "%.4f", worstRmse);
-        all.push_back({number, "whole frame, automatic size against the fixed " +
-                                   std::to_string(first.reference().chosen.resolution) +
-                                   " map at the same softness (" +
-                                   std::string(first.technique->title) + "; automatic N " + sizes +
-                                   "; geometric mean over " + std::to_string(scenes) +
-                                   (scenes == 1 ? " scene" : " scenes") +
-                                   "), with a resolution error of at most " + error +
-                                   " RMSE in visibility over penumbra pixels"});
+    for (const BenchmarkGroup& group : result.groups) {
+        if (group.automatic() == nullptr ||
+            std::find(done.begin(), done.end(), group.technique) != done.end())
+            continue;
+        done.push_back(group.technique);
+        all.push_back(headlineOf(result, group));
     }
     return all;
 }

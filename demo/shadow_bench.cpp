@@ -13,7 +13,7 @@ struct Options {
     std::vector<std::string> resolutions = {"auto", "512", "2048", "4096"};
     std::filesystem::path out;
     std::optional<std::filesystem::path> slope, fit;
-    int width = 640, height = 360, rounds = 7;
+    int width = 640, height = 360, rounds = 5;
     bool quick = false;
     std::vector<std::string> command;
 };
@@ -46,7 +46,7 @@ void measure(const Options& options) {
     const std::filesystem::path report =
         demo::writeReport(options.out, result, run, settings.slope, options.fit);
     for (const demo::Headline& headline : demo::headlines(result))
-        std::printf("%s: %s\n", headline.number.c_str(), headline.meaning.c_str());
+        std::printf("%s %s\n", headline.number.c_str(), headline.meaning.c_str());
     std::printf("report: %s\n", report.string().c_str());
 }
 

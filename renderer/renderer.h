@@ -27,10 +27,10 @@ namespace renderer {
 struct FrameSettings {
     const Technique* technique = nullptr;            ///< null: the table's first
     std::optional<ParameterValues> parameters = {};  ///< absent: the technique's defaults
-    int resolution = 1024;  ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
-    float radiusUv = 0;     ///< kernel radius as a fraction of the map's extent, 0 .. 1
-    float minRadiusUv = 0;  ///< least radius where a texel is larger than a pixel, 0 .. 1
-    bool lit = true;  ///< false leaves the lit pass out
+    int resolution = 1024;        ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
+    float radiusUv = 0;           ///< kernel radius as a fraction of the map's extent, 0 .. 1
+    float minRadiusUv = 0;        ///< least radius where a texel is larger than a pixel, 0 .. 1
+    bool lit = true;              ///< false leaves the lit pass out
     int samplesPerPixelEdge = 1;  ///< viewport pixels along a screen pixel's edge, 1 .. 16
 
     /// Throws std::invalid_argument that names the field, its value and its range.

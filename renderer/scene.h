@@ -46,6 +46,10 @@ struct Sun {
     float azimuthDeg = 0;                  ///< where it stands: 0 is +z, 90 is +x
     float elevationDeg = 45;               ///< over the horizon, (0, 90]
     glm::vec3 colour{3.2F, 2.85F, 2.35F};  ///< linear light on a surface that faces it
+    /// Turn of the map about the light's direction. 0 has the map's v axis along the vertical, so
+    /// that the shadows of all posts and walls run along the texel grid, where a map shows no
+    /// stair-steps.
+    float mapTurnDeg = 20;
 
     glm::vec3 towards() const;  ///< unit vector to the sun
 };
@@ -56,7 +60,8 @@ struct Scene {
     OrbitCamera camera;
     Sun sun;
     Bounds casters;  ///< what throws shadows; the light's window is fitted to it
-    double softnessM = 0.05;  ///< radius of the shadow's blur, in metres across the light's direction
+    double softnessM =
+        0.05;  ///< radius of the shadow's blur, in metres across the light's direction
 };
 
 struct SceneEntry {

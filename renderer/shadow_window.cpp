@@ -33,14 +33,17 @@ ShadowWindow fitShadowWindow(const Bounds& casters, const Sun& sun) {
         throw std::invalid_argument("shadow window: the casters' bounds span " +
                                     std::to_string(glm::length(span)) +
                                     " m, must be finite and > 0");
-    if (!(sun.elevationDeg > 0 && sun.elevationDeg <= 90) || !std::isfinite(sun.azimuthDeg))
+    if (!(sun.elevationDeg > 0 && sun.elevationDeg <= 90) || !std::isfinite(sun.azimuthDeg) ||
+        !std::isfinite(sun.mapTurnDeg))
         throw std::invalid_argument("shadow window: the sun stands " +
                                     std::to_string(sun.elevationDeg) +
                                     " degrees over the horizon, must be in (0, 90]");
 
     const glm::dvec3 light = glm::normalize(glm::dvec3(sun.towards()));
     const double azimuth = glm::radians(static_cast<double>(sun.azimuthDeg));
-    const glm::dvec3 right = {std::cos(azimuth), 0, -std::sin(azimuth)};
+    const glm::dvec3 level = {std::cos(azimuth), 0, -std::sin(azimuth)};
+    const double turn = glm::radians(static_cast<double>(sun.mapTurnDeg));
+    const glm::dvec3 right = std::cos(turn) * level + std::sin(turn) * glm::cross(light, level);
     const glm::dvec3 up = glm::cross(light, right);
 
     glm::dvec3 low(1e300);
@@ -53,11 +56,11 @@ ShadowWindow fitShadowWindow(const Bounds& casters, const Sun& sun) {
     const double extent = kMargin * std::max(high.x - low.x, high.y - low.y);
     const glm::dvec2 centre = 0.5 * glm::dvec2(low.x + high.x, low.y + high.y);
 
-    // A point with coordinates (x, y, z) along (right, up, -light) has the height up.y y - light.y
-    // z. So the ground under the square is farthest from the light along the edge where up.y y is
-    // largest.
+    // A point with coordinates (x, y, z) along (right, up, -light) has the height right.y x + up.y
+    // y - light.y z. So the ground under the square is farthest from the light in the corner where
+    // right.y x + up.y y is largest.
     const double highest =
-        std::max(up.y * (centre.y - 0.5 * extent), up.y * (centre.y + 0.5 * extent));
+        right.y * centre.x + up.y * centre.y + 0.5 * extent * (std::abs(right.y) + std::abs(up.y));
     const double groundDepth = (highest - casters.low.y) / light.y;
     const double nearest = low.z - 0.01 * extent;
     const double farthest =
