@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "resolution_controller/sentence.h"
@@ -36,17 +37,32 @@ double shareAbove(const DemandHistogram& histogram, std::int32_t size) noexcept 
     return static_cast<double>(above) / static_cast<double>(histogram.total());
 }
 
+std::int32_t largestSize(const Settings& s) noexcept {
+    const std::int32_t largest = std::min(s.maxSize, s.driverMaxSize);
+    return s.textureSize > 0 ? std::min(largest, s.textureSize) : largest;
+}
+
+Reason whatLimits(const Settings& s) noexcept {
+    if (largestSize(s) < std::min(s.maxSize, s.driverMaxSize)) return Reason::limitedByTexture;
+    return s.driverMaxSize < s.maxSize ? Reason::limitedByDriver : Reason::limitedByMaximum;
+}
+
 std::string validateLimits(const Settings& s) {
     if (s.minSize < 1) return sentence("minSize", s.minSize, "must be at least 1");
     if (s.minSize > s.maxSize) {
         return sentence("minSize", s.minSize,
                         "must not be above maxSize, " + std::to_string(s.maxSize));
     }
+    if (s.textureSize < 0) return sentence("textureSize", s.textureSize, "must be at least 0");
+    if (s.textureSize > 0 && s.minSize > s.textureSize) {
+        return sentence("minSize", s.minSize,
+                        "must not be above textureSize, " + std::to_string(s.textureSize));
+    }
     if (s.minSize > s.driverMaxSize) {
         return sentence("minSize", s.minSize,
                         "must not be above driverMaxSize, " + std::to_string(s.driverMaxSize));
     }
-    const std::int32_t largest = std::min(s.maxSize, s.driverMaxSize);
+    const std::int32_t largest = largestSize(s);
     const auto low = levelAtLeast(s.minSize, s.levelRatio);
     const auto high = levelAtMost(largest, s.levelRatio);
     if (!low || !high || *low > *high) {
@@ -57,6 +73,27 @@ std::string validateLimits(const Settings& s) {
     return {};
 }
 
+std::string validateDemand(const Settings& s) {
+    if (!(s.pixelBound > 0 && std::isfinite(s.pixelBound))) {
+        return sentence("pixelBound", s.pixelBound, "must be finite and greater than 0");
+    }
+    if (!(s.texelsPerCaster >= 0 && std::isfinite(s.texelsPerCaster))) {
+        return sentence("texelsPerCaster", s.texelsPerCaster, "must be finite and at least 0");
+    }
+    if (!(s.percentile > 0 && s.percentile <= 1)) {
+        return sentence("percentile", s.percentile, "must be in (0, 1]");
+    }
+    return {};
+}
+
+bool isShare(double value) {
+    return value >= 0 && value <= 1;
+}
+
+bool isAmount(double value) {
+    return value >= 0 && std::isfinite(value);
+}
+
 }  // namespace
 
 std::string validate(const Settings& s) {
@@ -65,9 +102,7 @@ std::string validate(const Settings& s) {
     if (s.levelRatio != LevelRatio::sqrtTwo && s.levelRatio != LevelRatio::two) {
         return sentence("levelRatio", static_cast<int>(s.levelRatio), "must be sqrtTwo or two");
     }
-    if (!(s.percentile > 0 && s.percentile <= 1)) {
-        return sentence("percentile", s.percentile, "must be in (0, 1]");
-    }
+    if (std::string problem = validateDemand(s); !problem.empty()) return problem;
     if (s.lowerAfterFrames < 0) {
         return sentence("lowerAfterFrames", s.lowerAfterFrames, "must be at least 0");
     }
@@ -75,7 +110,50 @@ std::string validate(const Settings& s) {
         return sentence("lowerBelowPercent", s.lowerBelowPercent, "must be in 1 to 100");
     }
     if (s.startSize < 1) return sentence("startSize", s.startSize, "must be at least 1");
+    if (s.crossFadeFrames < 0 || s.crossFadeFrames > 10000) {
+        return sentence("crossFadeFrames", s.crossFadeFrames, "must be in 0 to 10000");
+    }
+    if (s.budgetPerTexel < 1 || s.budgetPerTexel > 65536) {
+        return sentence("budgetPerTexel", s.budgetPerTexel, "must be in 1 to 65536");
+    }
     return {};
+}
+
+std::string validate(const ControllerState& s) {
+    const Decision& d = s.last;
+    for (const std::int32_t size : {d.size, d.previousSize, d.fadeFromSize}) {
+        if (levelAtLeast(size, LevelRatio::sqrtTwo) != size) {
+            return sentence("state.last.size", size, "must be a level (levels.h: 16 to 32768)");
+        }
+    }
+    if (d.need < 0 || d.need > kLargestNeed) {
+        return sentence("state.last.need", d.need, "must be in 0 to 65536");
+    }
+    if (static_cast<int>(d.reason) >= kReasons) {
+        return sentence("state.last.reason", static_cast<int>(d.reason), "must be a reason");
+    }
+    if (!isShare(d.fadeWeight) || !isShare(d.shareAbove)) {
+        return sentence("state.last.fadeWeight", d.fadeWeight,
+                        "it and shareAbove must be in [0, 1]");
+    }
+    for (const double amount : {d.artifactRatio, d.minRadiusUv, s.radiusUv}) {
+        if (!isAmount(amount)) {
+            return sentence("state", amount, "radii and ratios must be finite and at least 0");
+        }
+    }
+    for (const std::int32_t count :
+         {s.framesBelow, s.largestNeedBelow, s.framesSinceCut, s.fadeFrame}) {
+        if (count < 0) return sentence("state", count, "counts of frames must be at least 0");
+    }
+    return {};
+}
+
+DemandRule demandRule(const Settings& settings) noexcept {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    return {.c = static_cast<float>(std::min(settings.slope.c, kLargest)),
+            .pixelBound = settings.pixelBound,
+            .contrastExponent = static_cast<float>(settings.slope.contrastExponent),
+            .texelsPerCaster = settings.texelsPerCaster};
 }
 
 const char* text(Reason reason) noexcept {
@@ -104,6 +182,16 @@ const char* text(Reason reason) noexcept {
             return "held: filter radius is not positive and finite";
         case Reason::heldBadSettings:
             return "held: settings refused";
+        case Reason::heldBadSlope:
+            return "held: slope refused";
+        case Reason::heldOldView:
+            return "held: the data are from before the camera cut";
+        case Reason::detailMet:
+            return "meets the demand of thin casters";
+        case Reason::limitedByTexture:
+            return "limited by the texture that holds the map";
+        case Reason::switchedOff:
+            return "switched off";
     }
     return "unknown";
 }
@@ -113,15 +201,26 @@ ResolutionController::ResolutionController(const Settings& settings) : settings_
         throw std::invalid_argument("resolution controller: " + problem);
     }
     const Limits all = limits({});
-    last_.size =
+    Decision& first = state_.last;
+    first.size =
         std::clamp(levelAtLeast(settings.startSize, settings.levelRatio).value_or(all.high),
                    all.low, all.high);
-    last_.previousSize = last_.size;
+    first.previousSize = first.fadeFromSize = first.size;
+    first.map = constantsFor(first.size, settings.textureSize, 0, 0);
+}
+
+ResolutionController::ResolutionController(const Settings& settings, const ControllerState& state)
+    : ResolutionController(settings) {
+    if (const std::string problem = validate(state); !problem.empty()) {
+        throw std::invalid_argument("resolution controller: " + problem);
+    }
+    state_ = state;
 }
 
 std::string ResolutionController::reconfigure(const Settings& settings) {
     std::string problem = validate(settings);
-    settingsRefused_ = !problem.empty();
+    state_.settingsRefused = !problem.empty();
+    state_.slopeRefused = !problem.empty() && !validate(settings.slope).empty();
     if (problem.empty()) settings_ = settings;
     return problem;
 }
@@ -129,9 +228,8 @@ std::string ResolutionController::reconfigure(const Settings& settings) {
 ResolutionController::Limits ResolutionController::limits(const Frame& frame) const noexcept {
     const Settings& s = settings_;
     Limits result{.low = *levelAtLeast(s.minSize, s.levelRatio),
-                  .high = *levelAtMost(std::min(s.maxSize, s.driverMaxSize), s.levelRatio),
-                  .binding = s.driverMaxSize < s.maxSize ? Reason::limitedByDriver
-                                                         : Reason::limitedByMaximum};
+                  .high = *levelAtMost(largestSize(s), s.levelRatio),
+                  .binding = whatLimits(s)};
     if (!frame.budgetSize) return result;
     const std::int32_t affordable = levelAtMost(*frame.budgetSize, s.levelRatio).value_or(0);
     if (affordable < result.high) {
@@ -143,32 +241,54 @@ ResolutionController::Limits ResolutionController::limits(const Frame& frame) co
 
 /// The last size, moved onto a level within the limits.
 std::int32_t ResolutionController::within(const Limits& limits) const noexcept {
-    const auto level = levelAtMost(last_.size, settings_.levelRatio);
+    const auto level = levelAtMost(state_.last.size, settings_.levelRatio);
     return std::clamp(level.value_or(limits.low), limits.low, limits.high);
 }
 
+/// What every call does first: time passes.
+void ResolutionController::begin(const Frame& frame) noexcept {
+    ControllerState& s = state_;
+    if (s.framesSinceCut < ControllerState::kNever) ++s.framesSinceCut;
+    if (s.fadeFrame < ControllerState::kNever) ++s.fadeFrame;
+    if (frame.cameraCut) {
+        s.framesSinceCut = 0;
+        s.fadeFrame = ControllerState::kNever;
+        s.cutPending = true;
+    }
+    s.largestRadiusUv = frame.largestRadiusUv;
+}
+
+/// Why this frame's data do not count, whatever they are.
+std::optional<Reason> ResolutionController::unusable(const Frame& frame) const noexcept {
+    if (state_.slopeRefused) return Reason::heldBadSlope;
+    if (state_.settingsRefused) return Reason::heldBadSettings;
+    if (frame.dataAgeFrames > state_.framesSinceCut) return Reason::heldOldView;
+    return {};
+}
+
 std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limits) noexcept {
+    ControllerState& s = state_;
     const std::int32_t target = std::clamp(
         levelAtLeast(need, settings_.levelRatio).value_or(limits.high), limits.low, limits.high);
     const std::int32_t current = within(limits);
     const auto hasRoomFor = [this](std::int64_t level, std::int64_t texels) {
         return texels * 100 < level * settings_.lowerBelowPercent;
     };
-    const auto startOver = [this](std::int32_t size) {
-        framesBelow_ = largestNeedBelow_ = 0;
+    const auto startOver = [&s](std::int32_t size) {
+        s.framesBelow = s.largestNeedBelow = 0;
         return size;
     };
-    if (!hadData_ || target >= current) return startOver(target);
+    if (!s.hadData || s.cutPending || target >= current) return startOver(target);
 
     std::int32_t lower = *levelAtMost(current - 1, settings_.levelRatio);
     if (!hasRoomFor(lower, need)) return startOver(current);
-    largestNeedBelow_ = std::max(largestNeedBelow_, need);
-    if (++framesBelow_ < settings_.lowerAfterFrames) return current;
+    s.largestNeedBelow = std::max(s.largestNeedBelow, need);
+    if (++s.framesBelow < settings_.lowerAfterFrames) return current;
 
     // As far down at once as the whole wait allows: a size for each level would pop at each.
     while (lower > limits.low) {
         const std::int32_t next = *levelAtMost(lower - 1, settings_.levelRatio);
-        if (!hasRoomFor(next, largestNeedBelow_)) break;
+        if (!hasRoomFor(next, s.largestNeedBelow)) break;
         lower = next;
     }
     return startOver(lower);
@@ -177,63 +297,105 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
 Decision ResolutionController::decide(double texels, const DemandHistogram* histogram,
                                       const Frame& frame) noexcept {
     const Limits allowed = limits(frame);
-    const auto need = static_cast<std::int32_t>(std::ceil(texels));
+    Need need{.filter = texels, .filterTexels = static_cast<std::int32_t>(std::ceil(texels))};
+    if (settings_.texelsPerCaster > 0) {
+        need.detailTexels = std::clamp(frame.detailTexels, 0, kLargestNeed);
+    }
     Decision d;
-    d.size = choose(need, allowed);
-    d.previousSize = last_.size;
-    d.changed = d.size != d.previousSize;
-    d.need = need;
+    d.size = choose(need.texels(), allowed);
+    d.need = need.texels();
     d.artifactRatio = texels / d.size;
-    d.shareAbove = histogram ? shareAbove(*histogram, d.size) : (need > d.size ? 1 : 0);
+    d.shareAbove =
+        histogram ? shareAbove(*histogram, d.size) : (need.filterTexels > d.size ? 1 : 0);
     if (d.shareAbove > 0) d.minRadiusUv = settings_.slope.c / d.size;
-    d.reason = reasonFor(d, allowed);
-    hadData_ = true;
-    return last_ = d;
+    d.reason = reasonFor(d, need, allowed);
+    const bool mayFade = state_.hadData && !state_.cutPending;
+    state_.hadData = true;
+    state_.cutPending = false;
+    return finish(d, mayFade);
 }
 
-Reason ResolutionController::reasonFor(const Decision& d, const Limits& limits) const noexcept {
+Reason ResolutionController::reasonFor(const Decision& d, const Need& need,
+                                       const Limits& limits) const noexcept {
     if (d.need > d.size) return limits.binding;
     if (d.shareAbove > 0) return Reason::limitedByPercentile;
-    const std::int32_t enough = *levelAtLeast(d.need, settings_.levelRatio);  // need <= size
+    const auto levelFor = [&](std::int32_t texels) {  // texels <= size
+        return *levelAtLeast(texels, settings_.levelRatio);
+    };
+    const std::int32_t enough = levelFor(d.need);
     if (std::max(enough, limits.low) < d.size) return Reason::waitingToLower;
-    return enough < limits.low ? Reason::atMinimum : Reason::demandMet;
+    if (enough < limits.low) return Reason::atMinimum;
+    return levelFor(need.filterTexels) < enough ? Reason::detailMet : Reason::demandMet;
 }
 
 Decision ResolutionController::update(double radiusUv, const Frame& frame) noexcept {
-    if (settingsRefused_) return held(Reason::heldBadSettings, frame);
+    begin(frame);
+    if (const auto reason = unusable(frame)) return held(*reason, frame);
     if (!(radiusUv > 0) || !std::isfinite(radiusUv)) return held(Reason::heldBadRadius, frame);
-    const double texels = settings_.slope.c / radiusUv;
+    double texels = settings_.slope.c *
+                    contrastFactor(frame.contrast, settings_.slope.contrastExponent) / radiusUv;
+    if (frame.footprintUv > 0 && std::isfinite(frame.footprintUv)) {
+        texels = std::min(texels, settings_.pixelBound / frame.footprintUv);
+    }
+    state_.radiusUv = radiusUv;
     return decide(std::min<double>(texels, kLargestNeed), nullptr, frame);
 }
 
 Decision ResolutionController::update(const DemandHistogram& histogram,
                                       const Frame& frame) noexcept {
-    if (settingsRefused_) return held(Reason::heldBadSettings, frame);
+    begin(frame);
+    if (const auto reason = unusable(frame)) return held(*reason, frame);
     if (histogram.total() == 0) {
         return held(
             histogram.rejected > 0 ? Reason::heldRejectedDemand : Reason::heldEmptyHistogram,
             frame);
     }
+    state_.radiusUv = 0;
     return decide(needOf(histogram, settings_.percentile), &histogram, frame);
 }
 
 Decision ResolutionController::hold(const Frame& frame) noexcept {
-    return held(settingsRefused_ ? Reason::heldBadSettings : Reason::heldWithoutData, frame);
+    begin(frame);
+    Frame without = frame;
+    without.dataAgeFrames = 0;
+    return held(unusable(without).value_or(Reason::heldWithoutData), frame);
 }
 
 /// The last decision again, unless a limit has moved.
 Decision ResolutionController::held(Reason reason, const Frame& frame) noexcept {
-    Decision d = last_;
+    Decision d = state_.last;
     d.reason = reason;
-    d.previousSize = last_.size;
     d.size = within(limits(frame));
-    d.changed = d.size != d.previousSize;
-    if (d.changed) {
-        d.artifactRatio *= static_cast<double>(d.previousSize) / d.size;
+    if (d.size != state_.last.size) {
+        d.artifactRatio *= static_cast<double>(state_.last.size) / d.size;
         const bool limited = d.shareAbove > 0 || d.artifactRatio > 1;
         d.minRadiusUv = limited ? settings_.slope.c / d.size : 0;
     }
-    return last_ = d;
+    return finish(d, state_.hadData);
+}
+
+/// What follows from the size: the change, the fade and the constants.
+Decision ResolutionController::finish(Decision d, bool mayFade) noexcept {
+    ControllerState& s = state_;
+    const std::int32_t frames = settings_.crossFadeFrames;
+    d.previousSize = s.last.size;
+    d.changed = d.size != d.previousSize;
+    d.fadeFromSize = s.last.fadeFromSize;
+    if (d.changed) {
+        d.fadeFromSize = d.previousSize;
+        s.fadeFrame = mayFade ? 1 : ControllerState::kNever;
+    }
+    d.fadeWeight = 1;
+    if (s.fadeFrame <= frames) {
+        d.fadeWeight = static_cast<double>(s.fadeFrame) / (frames + 1);
+    } else {
+        s.fadeFrame = ControllerState::kNever;
+        d.fadeFromSize = d.size;
+    }
+    const double radius = s.radiusUv > 0 ? std::max(s.radiusUv, d.minRadiusUv) : 0;
+    d.map = constantsFor(d.size, settings_.textureSize, radius,
+                         std::max(s.largestRadiusUv, d.minRadiusUv));
+    return s.last = d;
 }
 
 }  // namespace resolution_controller

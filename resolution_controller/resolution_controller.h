@@ -10,6 +10,11 @@
 //     const rc::Decision choice = controller.update(histogram);
 //     if (choice.changed) resizeShadowMap(choice.size);
 //     setFilterRadius(std::max(radiusUv, choice.minRadiusUv));
+//     setTexelConstants(choice.map);
+//
+// A cascade is a light of its own; so is each face of a cube map whose faces may differ in size.
+// Faces that share one size are one light: add their histograms up. light_set.h shares a budget
+// among lights.
 //
 // The law r = c a runs both ways. Where the size is limited (by the settings, the driver, a budget,
 // or because a few pixels were left above the percentile), minRadiusUv = c / size is the softest
@@ -25,6 +30,7 @@
 
 #include "resolution_controller/demand.h"
 #include "resolution_controller/levels.h"
+#include "resolution_controller/map_constants.h"
 #include "resolution_controller/slope.h"
 
 namespace resolution_controller {
@@ -51,35 +57,86 @@ struct Settings {
 
     /// Size until the first data come; taken to the next level within the limits. > 0.
     std::int32_t startSize = 1024;
+
+    /// Edge of the texture that holds the map in a corner, texels, and so another limit; 0: the map
+    /// is re-allocated with exactly its size.
+    std::int32_t textureSize = 0;
+
+    /// After a change of size, frames (0 to 10000) in which the old map still has a share in the
+    /// picture; 0: it is replaced at once. Both maps are drawn meanwhile.
+    std::int32_t crossFadeFrames = 0;
+
+    float pixelBound = 1;       ///< k, texels per pixel that can still be seen, > 0
+    float texelsPerCaster = 2;  ///< across the thinnest caster; >= 0, 0: detail asks for nothing.
+                                ///< One makes sure that a bar is hit, two that its width is too
+
+    /// What a texel of this light counts in a budget (light_set.h): layers of this size x bytes per
+    /// texel, in 1 to 65536. 6 x 4 for a cube map of 32-bit depths whose faces share a size.
+    std::int32_t budgetPerTexel = 1;
+
+    bool operator==(const Settings&) const = default;
 };
 
 /// Empty when usable; else a sentence that names field, value and rule.
 std::string validate(const Settings& settings);
+
+/// What to call demand() with for the points of a light with these settings.
+DemandRule demandRule(const Settings& settings) noexcept;
 
 /// What a single frame adds to the settings.
 struct Frame {
     /// Largest edge that this light's share of a memory budget allows; absent: no budget. It rounds
     /// down to a level and holds at once; where it is below minSize, the smallest level is used.
     std::optional<std::int32_t> budgetSize = {};
+
+    /// The picture has nothing to do with the one before: the first data of the new view choose the
+    /// size at once, downwards too, and without a fade.
+    bool cameraCut = false;
+    /// How many calls ago the data of this one were drawn: 0 for this frame's, 2 where a read-back
+    /// takes two frames. Data from before a cut are not used. Negative counts as 0.
+    std::int32_t dataAgeFrames = 0;
+
+    /// For update(radiusUv), where a histogram has it in its demands: contrast of the shadows' edge
+    /// ([0, 1], anything else counts as 1) and smallest pixelFootprint() of a visible point (not
+    /// positive and finite: no bound).
+    double contrast = 1;
+    double footprintUv = 0;
+
+    /// Texels that a finer probe found necessary for thin casters; 0 or less: none. Not subject to
+    /// the percentile; limits hold.
+    std::int32_t detailTexels = 0;
+    /// Largest filter radius in use where it varies: width of the guard band.
+    double largestRadiusUv = 0;
+
+    bool operator==(const Frame&) const = default;
 };
 
+/// The numbers are part of traces and of the C interface: new ones are added at the end.
 enum class Reason : std::uint8_t {
     // The size follows the demand:
-    demandMet,       ///< the smallest level that meets it
-    waitingToLower,  ///< a lower level would do, but not yet for long enough
-    atMinimum,       ///< the demand is below the smallest level
+    demandMet = 0,       ///< the smallest level that meets it
+    waitingToLower = 1,  ///< a lower level would do, but not yet for long enough
+    atMinimum = 2,       ///< the demand is below the smallest level
     // The size is smaller than the demand; minRadiusUv says how far to enlarge the filter:
-    limitedByPercentile,  ///< it meets the percentile; some samples ask for more
-    limitedByMaximum,     ///< by settings
-    limitedByDriver,
-    limitedByBudget,
+    limitedByPercentile = 3,  ///< it meets the percentile; some samples ask for more
+    limitedByMaximum = 4,     ///< by settings
+    limitedByDriver = 5,
+    limitedByBudget = 6,
     // There was nothing to go by; the size stays:
-    heldWithoutData,     ///< hold() was called
-    heldEmptyHistogram,  ///< no visible point in penumbra
-    heldRejectedDemand,  ///< a histogram of nothing but NaN, zero and negative demands
-    heldBadRadius,       ///< NaN, zero, negative or infinite radius
-    heldBadSettings      ///< reconfigure() was given unusable settings, and no usable ones since
+    heldWithoutData = 7,     ///< hold() was called
+    heldEmptyHistogram = 8,  ///< no visible point in penumbra
+    heldRejectedDemand = 9,  ///< a histogram of nothing but NaN, zero and negative demands
+    heldBadRadius = 10,      ///< NaN, zero, negative or infinite radius
+    heldBadSettings = 11,  ///< reconfigure() was given unusable settings, and no usable ones since
+    heldBadSlope = 12,     ///< the same, the slope being what was unusable
+    heldOldView = 13,      ///< the data were drawn before the camera cut
+    // Further ones of the first two kinds:
+    detailMet = 14,         ///< thin casters ask for more than the filter; their demand is met
+    limitedByTexture = 15,  ///< by settings: the texture that holds the map
+    // light_set.h:
+    switchedOff = 16  ///< the light takes no part; the size stays
 };
+inline constexpr int kReasons = 17;
 
 /// A few words for a log or an overlay.
 const char* text(Reason reason) noexcept;
@@ -88,6 +145,11 @@ struct Decision {
     std::int32_t size = 0;          ///< edge of the map for this frame, texels
     std::int32_t previousSize = 0;  ///< of the frame before; equal to size unless `changed`
     bool changed = false;
+    /// While fadeWeight is below 1: show fadeWeight x this size's shadow + (1 - fadeWeight) x that
+    /// of a map with fadeFromSize. Another change meanwhile starts a new fade from the size it
+    /// leaves.
+    std::int32_t fadeFromSize = 0;
+    double fadeWeight = 1;
     Reason reason = Reason::heldWithoutData;
     /// Texels asked for by the last data, before limits and levels; 65536 stands for "or more", 0
     /// for "no data yet".
@@ -97,14 +159,44 @@ struct Decision {
     double artifactRatio = 0;
     /// Share of the samples that ask for more than `size`.
     double shareAbove = 0;
-    /// c / size when anything asks for more than `size`; else 0.
+    /// c / size when a filter asks for more than `size`; else 0.
     double minRadiusUv = 0;
+    /// Viewport, kernel and bias for `size`.
+    MapConstants map = {};
+
+    bool operator==(const Decision&) const = default;
 };
+
+/// Everything that a decision depends on beside settings, data and frame. For traces: to start one
+/// at any frame.
+struct ControllerState {
+    static constexpr std::int32_t kNever = 0x7fffffff;
+
+    Decision last;
+    double radiusUv = 0;                // of the last data, 0 for a histogram
+    double largestRadiusUv = 0;         // of the last frame
+    std::int32_t framesBelow = 0;       // in a row, with data, below lowerBelowPercent
+    std::int32_t largestNeedBelow = 0;  // of those frames
+    std::int32_t framesSinceCut = kNever;
+    std::int32_t fadeFrame = kNever;  // 1 in the frame of the change that is being faded
+    bool hadData = false;
+    bool cutPending = false;  // no data of the new view yet
+    bool settingsRefused = false;
+    bool slopeRefused = false;
+
+    bool operator==(const ControllerState&) const = default;
+};
+
+/// Empty when a controller could be in this state; else a sentence that names field, value and
+/// rule.
+std::string validate(const ControllerState& state);
 
 class ResolutionController {
   public:
     /// Throws std::invalid_argument with validate()'s sentence.
     explicit ResolutionController(const Settings& settings);
+    /// Goes on from a state that was taken earlier. Throws likewise.
+    ResolutionController(const Settings& settings, const ControllerState& state);
 
     /// PCF: one filter radius for the whole map, as a fraction of its extent.
     Decision update(double radiusUv, const Frame& frame = {}) noexcept;
@@ -122,27 +214,39 @@ class ResolutionController {
     std::string reconfigure(const Settings& settings);
 
     const Settings& settings() const noexcept { return settings_; }
-    std::int32_t size() const noexcept { return last_.size; }
+    std::int32_t size() const noexcept { return state_.last.size; }
+    const ControllerState& state() const noexcept { return state_; }
+    /// Back to a state of this controller's own; takes back whatever came after it.
+    void restore(const ControllerState& state) noexcept { state_ = state; }
 
   private:
     struct Limits {
         std::int32_t low, high;  // levels
         Reason binding;          // what sets `high`
     };
+    /// Texels that this frame's data ask for.
+    struct Need {
+        double filter = 0;  // as the law has it
+        std::int32_t filterTexels = 0;
+        std::int32_t detailTexels = 0;
+        std::int32_t texels() const {
+            return filterTexels > detailTexels ? filterTexels : detailTexels;
+        }
+    };
 
     Limits limits(const Frame& frame) const noexcept;
     std::int32_t within(const Limits& limits) const noexcept;
+    void begin(const Frame& frame) noexcept;
+    std::optional<Reason> unusable(const Frame& frame) const noexcept;
     std::int32_t choose(std::int32_t need, const Limits& limits) noexcept;
     Decision decide(double texels, const DemandHistogram* histogram, const Frame& frame) noexcept;
-    Reason reasonFor(const Decision& decision, const Limits& limits) const noexcept;
+    Reason reasonFor(const Decision& decision, const Need& need,
+                     const Limits& limits) const noexcept;
     Decision held(Reason reason, const Frame& frame) noexcept;
+    Decision finish(Decision decision, bool mayFade) noexcept;
 
     Settings settings_;
-    Decision last_;
-    std::int32_t framesBelow_ = 0;       // in a row, with data, below lowerBelowPercent
-    std::int32_t largestNeedBelow_ = 0;  // of those frames
-    bool hadData_ = false;
-    bool settingsRefused_ = false;
+    ControllerState state_;
 };
 
 }  // namespace resolution_controller

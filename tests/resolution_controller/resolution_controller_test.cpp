@@ -323,9 +323,10 @@ TEST(ResolutionController, ABudgetHoldsAtOnceAndAlsoWithoutData) {
 
 TEST(ResolutionController, EveryReasonHasItsOwnWords) {
     std::set<std::string> words;
-    for (int r = 0; r <= int(Reason::heldBadSettings); ++r) words.insert(rc::text(Reason(r)));
-    EXPECT_EQ(words.size(), std::size_t(Reason::heldBadSettings) + 1);
+    for (int r = 0; r < rc::kReasons; ++r) words.insert(rc::text(Reason(r)));
+    EXPECT_EQ(words.size(), std::size_t(rc::kReasons));
     EXPECT_EQ(words.count("unknown"), 0u);
+    EXPECT_STREQ(rc::text(Reason(rc::kReasons)), "unknown");
 }
 
 struct BadSettings {
@@ -356,7 +357,15 @@ std::vector<BadSettings> badSettings() {
             {[](auto& s) { s.lowerAfterFrames = -1; }, "lowerAfterFrames is -1"},
             {[](auto& s) { s.lowerBelowPercent = 0; }, "lowerBelowPercent is 0"},
             {[](auto& s) { s.lowerBelowPercent = 101; }, "lowerBelowPercent is 101"},
-            {[](auto& s) { s.startSize = 0; }, "startSize is 0"}};
+            {[](auto& s) { s.startSize = 0; }, "startSize is 0"},
+            {[](auto& s) { s.slope.major = 2; }, "slope.major is 2"},
+            {[](auto& s) { s.textureSize = -1; }, "textureSize is -1"},
+            {[](auto& s) { s.textureSize = 32; }, "must not be above textureSize, 32"},
+            {[](auto& s) { s.crossFadeFrames = -1; }, "crossFadeFrames is -1"},
+            {[](auto& s) { s.pixelBound = 0; }, "pixelBound is 0"},
+            {[](auto& s) { s.texelsPerCaster = float(kNan); }, "texelsPerCaster is nan"},
+            {[](auto& s) { s.budgetPerTexel = 0; }, "budgetPerTexel is 0"},
+            {[](auto& s) { s.budgetPerTexel = 65537; }, "budgetPerTexel is 65537"}};
 }
 
 TEST(ResolutionController, RefusesUnusableSettingsByNameValueAndRule) {
@@ -383,7 +392,8 @@ TEST(ResolutionController, HoldsWhileItsNewSettingsAreUnusable) {
         for (const rc::Decision& d : {controller.update(radiusFor(5000)), controller.hold(),
                                       controller.update(histogramOf({{5000.0f, 9}}))}) {
             EXPECT_EQ(d.size, 728);
-            EXPECT_EQ(d.reason, Reason::heldBadSettings);
+            EXPECT_EQ(d.reason, bad.says.starts_with("slope") ? Reason::heldBadSlope
+                                                              : Reason::heldBadSettings);
         }
         EXPECT_EQ(controller.reconfigure({}), "");
         EXPECT_EQ(controller.update(radiusFor(5000)).size, 5800);

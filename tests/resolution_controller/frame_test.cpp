@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// What a frame and its settings add to the law: cuts, fades, contrast, detail, texel constants.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "resolution_controller/resolution_controller.h"
+
+namespace {
+
+namespace rc = resolution_controller;
+using rc::Reason;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+double radiusFor(double need) {
+    return rc::Slope{}.c / need;
+}
+
+TEST(CameraCut, FollowsTheFirstDataOfTheNewViewAtOnce) {
+    rc::ResolutionController controller({.crossFadeFrames = 8});
+    controller.update(radiusFor(2000));
+    const rc::Decision lowered = controller.update(radiusFor(300), {.cameraCut = true});
+    EXPECT_EQ(lowered.size, 368);
+    EXPECT_EQ(lowered.fadeWeight, 1) << "nothing to fade from: the picture is another one";
+    EXPECT_EQ(controller.update(radiusFor(50)).size, 368) << "one cut, one jump";
+}
+
+TEST(CameraCut, DoesNotBelieveDataOfTheOldView) {
+    rc::ResolutionController controller({});
+    controller.update(radiusFor(2000));
+    // A read-back that takes two frames: the data of the cut frame and the next are old.
+    const rc::Decision cut =
+        controller.update(radiusFor(4000), {.cameraCut = true, .dataAgeFrames = 2});
+    EXPECT_EQ(cut.reason, Reason::heldOldView);
+    EXPECT_EQ(cut.size, 2048);
+    EXPECT_EQ(controller.update(radiusFor(4000), {.dataAgeFrames = 2}).reason, Reason::heldOldView);
+    const rc::Decision first = controller.update(radiusFor(100), {.dataAgeFrames = 2});
+    EXPECT_EQ(first.size, 128);
+    EXPECT_EQ(first.reason, Reason::demandMet);
+}
+
+TEST(CameraCut, WaitsThroughFramesWithoutData) {
+    rc::ResolutionController controller({});
+    controller.update(radiusFor(2000));
+    controller.hold({.cameraCut = true});
+    controller.update(kNan);
+    EXPECT_EQ(controller.update(rc::DemandHistogram{}).size, 2048);
+    EXPECT_EQ(controller.update(radiusFor(100)).size, 128);
+}
+
+TEST(CrossFade, RisesInEqualStepsAndEnds) {
+    rc::ResolutionController controller({.crossFadeFrames = 4});
+    controller.update(radiusFor(500));
+    for (int frame = 1; frame <= 8; ++frame) {
+        // Frames without data count, too: the fade is seen, whatever is known.
+        const rc::Decision d = frame % 2 ? controller.update(radiusFor(2000)) : controller.hold();
+        EXPECT_EQ(d.size, 2048);
+        EXPECT_DOUBLE_EQ(d.fadeWeight, std::min(1.0, frame / 5.0));
+        EXPECT_EQ(d.fadeFromSize, frame < 5 ? 512 : 2048);
+    }
+}
+
+TEST(CrossFade, StartsAnewFromTheSizeItLeaves) {
+    rc::ResolutionController controller({.crossFadeFrames = 10});
+    controller.update(radiusFor(500));
+    controller.update(radiusFor(1000));
+    const rc::Decision d = controller.update(radiusFor(2000));
+    EXPECT_EQ(d.fadeFromSize, 1024);
+    EXPECT_DOUBLE_EQ(d.fadeWeight, 1.0 / 11);
+}
+
+TEST(CrossFade, IsAbsentByDefaultAndBeforeAnythingChanged) {
+    rc::ResolutionController off({}), on({.crossFadeFrames = 10});
+    for (const double need : {500.0, 4000.0, 8000.0}) {
+        const rc::Decision d = off.update(radiusFor(need));
+        EXPECT_EQ(d.fadeWeight, 1);
+        EXPECT_EQ(d.fadeFromSize, d.size);
+    }
+    EXPECT_EQ(on.hold().fadeWeight, 1);
+    EXPECT_EQ(on.update(radiusFor(5000)).fadeWeight, 1) << "the first data: nothing was shown";
+    EXPECT_EQ(off.reconfigure({.crossFadeFrames = 10}), "");
+    EXPECT_EQ(off.update(radiusFor(8000)).fadeWeight, 1) << "switched on long after the change";
+}
+
+TEST(Frame, ContrastTermActsOnTheSlopeAndOnlyWithAnExponent) {
+    const rc::Settings with{.slope = {.contrastExponent = 0.5}};
+    EXPECT_EQ(rc::ResolutionController(with).update(radiusFor(999.5), {.contrast = 0.25}).need, 500);
+    EXPECT_EQ(rc::ResolutionController({}).update(radiusFor(999.5), {.contrast = 0.25}).need, 1000);
+    EXPECT_EQ(rc::ResolutionController(with).update(radiusFor(999.5), {.contrast = kNan}).need,
+              1000);
+}
+
+TEST(Frame, NoTexelSmallerThanAPixel) {
+    rc::ResolutionController controller({});
+    EXPECT_EQ(controller.update(1e-6, {.footprintUv = 1.0 / 500}).need, 500);
+    for (const double none : {0.0, -1.0, kNan, kInf}) {
+        EXPECT_EQ(controller.update(radiusFor(699.5), {.footprintUv = none}).need, 700);
+    }
+}
+
+TEST(Frame, ThinCastersRaiseTheSizePastThePercentile) {
+    rc::DemandHistogram h;
+    for (int i = 0; i < 1000; ++i) h.add(100);
+    rc::ResolutionController controller({});
+    const rc::Decision d = controller.update(h, {.detailTexels = 900});
+    EXPECT_EQ(d.size, 1024);
+    EXPECT_EQ(d.reason, Reason::detailMet);
+    EXPECT_EQ(d.need, 900);
+    EXPECT_NEAR(d.artifactRatio, 108.0 / 1024, 1e-12) << "of the filter: upper edge of 100's bin";
+    EXPECT_EQ(d.minRadiusUv, 0);
+    const rc::Decision limited = controller.update(h, {.budgetSize = 512, .detailTexels = 900});
+    EXPECT_EQ(limited.reason, Reason::limitedByBudget);
+    EXPECT_EQ(limited.minRadiusUv, 0) << "a wider filter brings no bar back";
+    rc::ResolutionController off({.texelsPerCaster = 0});
+    EXPECT_EQ(off.update(h, {.detailTexels = 900}).size, 128);
+    for (const std::int32_t none : {0, -5, std::numeric_limits<std::int32_t>::min()}) {
+        EXPECT_EQ(rc::ResolutionController({}).update(h, {.detailTexels = none}).size, 128);
+    }
+}
+
+TEST(Frame, TheTextureLimitsWhatItHolds) {
+    rc::ResolutionController controller({.textureSize = 2048});
+    const rc::Decision d = controller.update(radiusFor(5000));
+    EXPECT_EQ(d.size, 2048);
+    EXPECT_EQ(d.reason, Reason::limitedByTexture);
+    EXPECT_EQ(d.map.textureScale, 1);
+    const rc::Decision small = controller.update(radiusFor(1000), {.cameraCut = true});
+    EXPECT_EQ(small.map.viewport, 1024);
+    EXPECT_EQ(small.map.textureScale, 0.5);
+}
+
+TEST(MapConstants, HoldWhatTheSizeSays) {
+    const rc::MapConstants m = rc::constantsFor(1000, 4000, 0.01, 0.02);
+    EXPECT_EQ(m.viewport, 1000);
+    EXPECT_EQ(m.cleared, 1000 + 20 + 1) << "the largest radius and one texel";
+    EXPECT_EQ(m.textureScale, 0.25);
+    EXPECT_EQ(m.texelUv, 0.001);
+    EXPECT_DOUBLE_EQ(m.radiusTexels, 10);
+    EXPECT_EQ(m.kernelReachTexels, 10);
+    EXPECT_EQ(m.planeBiasUv, 0.0005);
+    EXPECT_DOUBLE_EQ(m.normalOffsetUv, std::sqrt(0.5) / 1000);
+}
+
+// Every texel whose square a disc around any point of a texel can touch.
+TEST(MapConstants, KernelReachesWhatADiscTouches) {
+    for (double texels = 0.1; texels < 20; texels += 0.07) {
+        const rc::MapConstants m = rc::constantsFor(512, 0, texels / 512, 0);
+        int farthest = 0;
+        for (double centre = 0; centre < 1; centre += 0.01) {
+            farthest = std::max(farthest, int(std::floor(centre + texels)));
+            farthest = std::max(farthest, -int(std::floor(centre - texels)));
+        }
+        EXPECT_GE(m.kernelReachTexels, farthest) << texels;
+        EXPECT_LE(m.kernelReachTexels, farthest + 1) << texels;
+    }
+}
+
+TEST(MapConstants, StayFiniteAndInsideTheTexture) {
+    for (const double r : {0.0, -1.0, kNan, kInf, 1e-300, 1e300, 0.5}) {
+        for (const std::int32_t size : {0, -4, 1, 512, 32768}) {
+            const rc::MapConstants m = rc::constantsFor(size, 1024, r, r);
+            EXPECT_GE(m.cleared, m.viewport);
+            EXPECT_LE(m.cleared, std::max(size > 0 ? size : 0, 1024));
+            EXPECT_GE(m.kernelReachTexels, 0);
+            EXPECT_TRUE(std::isfinite(m.radiusTexels) || r == 1e300);
+        }
+    }
+    EXPECT_EQ(rc::constantsFor(0, 1024, 0.1, 0.1), rc::MapConstants{});
+}
+
+TEST(MapConstants, OfADecisionFollowTheEnlargedFilter) {
+    rc::ResolutionController controller({.maxSize = 512});
+    const rc::Decision d = controller.update(radiusFor(2000));
+    EXPECT_DOUBLE_EQ(d.map.radiusUv, d.minRadiusUv);
+    EXPECT_NEAR(d.map.radiusTexels, 3.47, 1e-12) << "c texels: at the study's criterion";
+    EXPECT_EQ(d.map.kernelReachTexels, 4);
+    const rc::Decision wide = controller.update(radiusFor(100));
+    EXPECT_DOUBLE_EQ(wide.map.radiusUv, radiusFor(100));
+    rc::DemandHistogram h;
+    h.add(300);
+    EXPECT_EQ(controller.update(h).map.radiusUv, 0) << "it varies over the map";
+}
+
+TEST(DemandRule, IsTheSettings) {
+    const rc::DemandRule rule = rc::demandRule(
+        {.slope = {.c = 2, .contrastExponent = 0.25}, .pixelBound = 1.5f, .texelsPerCaster = 3});
+    EXPECT_EQ(rule.c, 2);
+    EXPECT_EQ(rule.contrastExponent, 0.25f);
+    EXPECT_EQ(rule.pixelBound, 1.5f);
+    EXPECT_EQ(rule.texelsPerCaster, 3);
+    EXPECT_TRUE(std::isfinite(rc::demandRule({.slope = {.c = 1e300}}).c));
+}
+
+// Any state taken on the way gives the same future.
+TEST(ControllerState, GoesOnWhereItWasTaken) {
+    const rc::Settings settings{.lowerAfterFrames = 5, .textureSize = 8192, .crossFadeFrames = 3};
+    rc::ResolutionController first(settings);
+    const auto step = [](rc::ResolutionController& c, int frame) {
+        const rc::Frame f{.cameraCut = frame % 37 == 0, .dataAgeFrames = frame % 3};
+        if (frame % 11 == 0) return c.hold(f);
+        return c.update(radiusFor(50 + (frame * 7919) % 4000 * (frame % 50 < 25 ? 1 : 0.01)), f);
+    };
+    for (int frame = 0; frame < 300; ++frame) {
+        rc::ResolutionController second(settings, first.state());
+        rc::ResolutionController ahead = first;
+        for (int f = frame; f < frame + 20; ++f) ASSERT_EQ(step(second, f), step(ahead, f));
+        step(first, frame);
+        ASSERT_EQ(rc::validate(first.state()), "");
+    }
+}
+
+TEST(ControllerState, RefusesWhatNoControllerWasEverIn) {
+    const rc::ControllerState good = rc::ResolutionController({}).state();
+    EXPECT_EQ(rc::validate(good), "");
+    const auto refused = [&](auto spoil) {
+        rc::ControllerState state = good;
+        spoil(state);
+        EXPECT_NE(rc::validate(state), "");
+        EXPECT_THROW(rc::ResolutionController({}, state), std::invalid_argument);
+    };
+    refused([](auto& s) { s.last.size = 1000; });
+    refused([](auto& s) { s.last.size = -1; });
+    refused([](auto& s) { s.last.previousSize = 0; });
+    refused([](auto& s) { s.last.fadeFromSize = 1 << 30; });
+    refused([](auto& s) { s.last.need = 70000; });
+    refused([](auto& s) { s.last.reason = Reason(200); });
+    refused([](auto& s) { s.last.artifactRatio = kNan; });
+    refused([](auto& s) { s.last.fadeWeight = 1.5; });
+    refused([](auto& s) { s.radiusUv = kInf; });
+    refused([](auto& s) { s.framesBelow = -1; });
+}
+
+}  // namespace
