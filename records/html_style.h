@@ -89,6 +89,7 @@ pre {
   thead { display: table-header-group; }
   .scroll { overflow: visible; border: 0; width: auto; }
   .gallery { grid-template-columns: 1fr 1fr; }
+  .paper svg { max-height: 10cm; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 }
 )css";
