@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -345,6 +346,27 @@ TEST(Design, ConditionsAreTheFullCrossingWithTrueAngles) {
     EXPECT_EQ(names.size(), conditions.size());
     EXPECT_TRUE(names.contains("step-vertical-a8-lit0.25-box"));
     EXPECT_TRUE(names.contains("line22.5-a3-lit1-disc"));
+}
+
+TEST(Design, ExamplesOfTheDocumentationRead) {
+    std::ifstream in(tests::shippedDesignFile("quick").parent_path() /
+                     "../../docs/design-files.md");
+    std::string line, block;
+    int examples = 0;
+    for (bool inside = false; std::getline(in, line);) {
+        if (!line.starts_with("```")) {
+            if (inside) block += line + "\n";
+            continue;
+        }
+        inside = line == "```json";
+        if (!inside && !block.empty()) {
+            const auto example = records::parseJson(block, "design-files.md");
+            EXPECT_NO_THROW(study_app::designFromJson(example, "design-files.md")) << block;
+            ++examples;
+            block.clear();
+        }
+    }
+    EXPECT_EQ(examples, 2);
 }
 
 // Designs drawn at random within the rules: what the writer writes, the reader reads as the same.
