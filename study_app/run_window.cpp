@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
@@ -81,6 +82,7 @@ class StudyWindow {
   private:
     void handleInput(double now);
     void handlePress(const Input::Press& press, double now, bool& returnPressed);
+    void pressOffTrials(int key, double now);
     void handleDisturbance();
     void tick(double now);
     void draw(bool returnPressed);
@@ -102,6 +104,8 @@ class StudyWindow {
     void leaveCalibration();
     void startSession(const SetupForm& form);
     void rerun(double now);
+    void log(const std::string& line);
+    void logRows();
     bool answering() const;
     FlowNeeds needs() const;
     void settle() { framesWanted_ = kFramesToSettle; }
@@ -113,6 +117,8 @@ class StudyWindow {
     int framesWanted_ = kFramesToSettle;
     bool returnPressed_ = false, verified_ = false;
     std::set<std::string> screenshotsTaken_;
+    std::ofstream eventLog_;
+    std::size_t rowsLogged_ = 0;
 };
 
 StudyWindow::StudyWindow(const WindowRun& run) : run_(run), window_(run.window) {
@@ -123,6 +129,11 @@ StudyWindow::StudyWindow(const WindowRun& run) : run_(run), window_(run.window) 
     run_.context.glVersion = window_.glVersion();
     run_.context.viewportWidthPx = window_.widthPx();
     run_.context.viewportHeightPx = window_.heightPx();
+    if (!run.eventLog.empty()) {
+        eventLog_.open(run.eventLog, std::ios::app);
+        if (!eventLog_) throw std::runtime_error(run.eventLog.string() + ": cannot be written");
+    }
+    log("screen setup");
     if (run_.displays.empty()) run_.displays = displayFile();
     loadCalibration();
     refreshSetup();
@@ -144,11 +155,25 @@ void StudyWindow::run() {
         const double now = Window::now();
         handleInput(now);
         tick(now);
+        logRows();
         if (state_.flow.screen == Screen::closed) break;
         draw(returnPressed_);
         returnPressed_ = false;
     }
     if (run_.printTiming && state_.runner) printTiming(state_.runner->latencies());
+}
+
+void StudyWindow::log(const std::string& line) {
+    if (eventLog_.is_open()) eventLog_ << line << std::endl;
+}
+
+void StudyWindow::logRows() {
+    if (!eventLog_.is_open() || !state_.runner) return;
+    const auto& rows = state_.runner->rows();
+    for (; rowsLogged_ < rows.size(); ++rowsLogged_) {
+        const records::Trial& row = rows[rowsLogged_];
+        log("row " + std::to_string(row.number) + " " + std::string(records::toText(row.status)));
+    }
 }
 
 double StudyWindow::idleSeconds(double now) const {
@@ -214,7 +239,7 @@ void StudyWindow::handlePress(const Input::Press& press, double now, bool& retur
         default:
             break;
     }
-    if (!answering()) return;
+    if (!answering()) return pressOffTrials(press.key, now);
     switch (press.key) {
         case GLFW_KEY_LEFT:
             return answer(Side::left);
@@ -233,6 +258,14 @@ void StudyWindow::handlePress(const Input::Press& press, double now, bool& retur
         default:
             return;
     }
+}
+
+void StudyWindow::pressOffTrials(int key, double now) {
+    const Screen screen = state_.flow.screen;
+    const bool resting = screen == Screen::rest || screen == Screen::pause;
+    if (key == GLFW_KEY_Q && resting) act(Request::quit, now);
+    const bool undoable = (resting || screen == Screen::end) && state_.runner->canUndo();
+    if (key == GLFW_KEY_BACKSPACE && undoable && !state_.resultsShown) undo(now);
 }
 
 void StudyWindow::tick(double now) {
@@ -313,6 +346,11 @@ void StudyWindow::showFrame(const std::vector<PlacedImage>& images, bool newStim
     window_.waitForEvents(0);
     window_.input().presses.clear();
     state_.runner->shown(shown);
+    if (!eventLog_.is_open()) return;
+    const records::Trial trial = state_.runner->trial();
+    const bool practice = state_.runner->stage() == SessionRunner::Stage::practice;
+    log((practice ? "practice " : "stimulus ") + std::to_string(trial.number) + " " +
+        trial.side.value_or(trial.type == records::TrialType::artifact ? "right" : "left"));
 }
 
 void StudyWindow::saveScreenshot(const cv::Mat& bgr) {
@@ -381,6 +419,7 @@ void StudyWindow::actOnEvent(RunnerEvent event, double now) {
             return;
         case RunnerEvent::practiceOver:
             state_.practiceOver = true;
+            log("screen practice-over");
             return;
         case RunnerEvent::practiceStuck:
             state_.practiceStuck = true;
@@ -407,6 +446,7 @@ void StudyWindow::go(FlowEvent event, double now) {
 /// Stimuli begin with a blank; where the window cannot hold them there is a pause instead.
 void StudyWindow::enter(Screen screen, double now) {
     settle();
+    log(std::string("screen ") + toText(screen));
     if (screen != Screen::practice) state_.practiceOver = state_.practiceStuck = false;
     if (!showsStimuli(screen)) return;
     const Design& design = state_.runner->session().design();
@@ -428,6 +468,7 @@ void StudyWindow::pause(const std::string& why, bool trouble) {
     state_.flow = after(state_.flow, FlowEvent::pause);
     state_.message = why;
     state_.messageIsTrouble = trouble;
+    log("screen pause");
     settle();
 }
 
@@ -553,6 +594,7 @@ void StudyWindow::rerun(double now) {
         return;
     }
     state_.resultsShown = false;
+    rowsLogged_ = 0;
     go(FlowEvent::rerun, now);
 }
 

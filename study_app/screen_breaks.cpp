@@ -19,8 +19,8 @@ std::optional<Request> requestOf(const std::optional<Pressed>& pressed, bool can
 Footer footer(const char* primary, bool enabled, bool canUndo) {
     return {.primary = primary,
             .enabled = enabled,
-            .secondary = canUndo ? "Take back the last answer" : "Stop for today",
-            .tertiary = canUndo ? "Stop for today" : nullptr};
+            .secondary = canUndo ? "Take back the last answer (Backspace)" : "Stop for today (Q)",
+            .tertiary = canUndo ? "Stop for today (Q)" : nullptr};
 }
 
 void drawMessage(const AppState& state) {

@@ -103,14 +103,19 @@ void drawGamma(CalibrationState& c, const Page& page) {
 void drawDistance(CalibrationState& c, const Page& page) {
     ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Viewing distance and luminance");
     ImGui::SetNextItemWidth(page.px(190));
-    if (ImGui::InputDouble("##distance", &c.distanceCm, 1, 5, "%.0f cm from the eye")) {
+    if (ImGui::InputDouble("##distance", &c.distanceCm, 1, 5, "%.0f cm")) {
         c.distanceCm = std::clamp(c.distanceCm, 5.0, 5000.0);
         c.distanceGiven = true;
     }
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("from the eye");
+    ImGui::SetNextItemWidth(page.px(190));
     ImGui::InputDouble("##luminance", &c.luminance, 0, 0,
-                       c.luminance > 0 ? "white: %.1f cd/m2" : "white: not measured");
+                       c.luminance > 0 ? "%.1f cd/m2" : "not measured");
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("of full white");
     c.luminance = std::clamp(c.luminance, 0.0, 100000.0);
 }
 

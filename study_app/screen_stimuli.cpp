@@ -59,9 +59,9 @@ std::string hint(const SessionRunner& runner) {
 
 std::string practiceText(const SessionRunner& runner) {
     const Practice& practice = runner.practice();
-    return "Practice: " + std::to_string(practice.rightOfLast()) + " right of the last " +
-           std::to_string(practice.rule().ofLast) + ", " + std::to_string(practice.rule().correct) +
-           " are needed";
+    return "Practice: " + std::to_string(practice.rightOfLast()) + " right, " +
+           std::to_string(practice.rule().correct) + " of the last " +
+           std::to_string(practice.rule().ofLast) + " are needed";
 }
 
 void drawFeedback(const Page& page, bool right) {

@@ -155,10 +155,11 @@ std::vector<std::string> describeDesign(const Design& d, const Presentation& pre
     lines.push_back(d.task == records::Task::twoAfc
                         ? "Two edges side by side; which one has stair-steps?"
                         : "One edge at a time; does it have stair-steps?");
-    lines.push_back(plural(conditions(d).size(), "condition") + ": steps of " +
-                    joined(d.artifactPx, number) + " px; " + joined(d.patterns, describe) + "; " +
-                    joined(d.kernels, itself) + " filter; lit level " +
-                    joined(d.litLevels, number));
+    lines.push_back(
+        plural(conditions(d).size(), "condition") + ": steps of " + joined(d.artifactPx, number) +
+        " px; " + joined(d.patterns, describe) + "; " + joined(d.kernels, itself) + " filter" +
+        (d.litLevels == std::vector<double>{1.0} ? std::string()
+                                                 : "; lit level " + joined(d.litLevels, number)));
     char text[160];
     std::snprintf(text, sizeof text,
                   "%d trials (%d per condition, %d to check attention), about %.0f minutes",

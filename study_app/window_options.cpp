@@ -32,7 +32,8 @@ std::vector<std::string> addWindowOptions(CLI::App& app, WindowArguments& a) {
         app.add_option("--screenshots", a.screenshots, "Folder for a picture of every screen"),
         app.add_flag("--verify-pixels", a.verifyPixels,
                      "Read back every stimulus and compare its codes, not only the first"),
-        app.add_flag("--robot", a.robot, "A robot observer answers, by the pixels it is shown"),
+        app.add_option("--event-log", a.eventLog,
+                       "File that gets a line for every screen, stimulus and row"),
         app.add_flag("--timing", a.timing,
                      "Print the time from answer to next stimulus at the end")};
     std::vector<std::string> names;
@@ -60,7 +61,7 @@ void apply(const WindowArguments& a, WindowRun& run) {
     run.screenshots = a.screenshots;
     run.startAtOnce = a.start;
     run.verifyPixels = a.verifyPixels;
-    run.robot = a.robot;
+    run.eventLog = a.eventLog;
     run.printTiming = a.timing;
     run.window.fullscreen = a.fullscreen;
     run.window.uiScale = a.uiScale;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command line of the study's window: everything that its set-up screen asks for, and how it is
-// shown. study_app.cpp's own options (--design, --data, --participant, --session, --seed) fill in the
-// same form.
+// shown. study_app.cpp's own options (--design, --data, --participant, --session, --seed) fill in
+// the same form.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,10 +14,11 @@
 namespace study_app {
 
 struct WindowArguments {
-    std::string age, gender, expertise, task, presentation, instructions, displays, screenshots;
+    std::string age, gender, expertise, task, presentation, instructions, displays, screenshots,
+        eventLog;
     std::optional<double> uiScale;
     std::vector<int> size;
-    bool start = false, fullscreen = false, verifyPixels = false, robot = false, timing = false;
+    bool start = false, fullscreen = false, verifyPixels = false, timing = false;
 };
 
 /// Adds the options in a group of their own and returns their names, for a mode that refuses them.

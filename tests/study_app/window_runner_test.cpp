@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+// Sessions with a person whose hands and clock are the test's: practice, rows, undo, breaks,
+// stimuli.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "records/participants_table.h"
+#include "records/session_sidecar.h"
+#include "stimulus/stimulus_image.h"
+#include "study_app/practice.h"
+#include "study_app/session_flags.h"
+#include "study_app/session_runner.h"
+#include "study_app/setup_form.h"
+#include "study_app/trial_stimulus.h"
+#include "study_app/undo.h"
+#include "tests/temporary_folder.h"
+
+namespace study_app {
+namespace {
+
+using records::Response;
+using records::Task;
+using records::Trial;
+using records::TrialStatus;
+
+Design smallDesign(Task task = Task::twoAfc) {
+    Design d;
+    d.name = "small";
+    d.windowPx = 64;
+    d.artifactPx = {4, 6};
+    d.patterns = {{.pattern = records::Pattern::stair}, {.pattern = records::Pattern::step}};
+    d.trialsPerCondition = 3;
+    d.radius.max = 32;
+    return withTask(d, task);
+}
+
+SessionRequest requestIn(const tests::TemporaryFolder& folder, Task task = Task::twoAfc) {
+    return {.dataFolder = folder.path() / "data",
+            .participant = "01",
+            .session = {},
+            .design = smallDesign(task),
+            .seed = 11,
+            .displayWidthPx = 1280,
+            .displayHeightPx = 800,
+            .context = records::currentRunContext("study_app", {"study_app"})};
+}
+
+const Presentation kPace{.blankS = 0.1, .fixationS = 0.1, .breakEveryTrials = 0};
+
+Side sideOf(const Trial& trial, bool right) {
+    const bool seen = trial.task == Task::twoAfc ? trial.side == "right"
+                                                 : trial.type == records::TrialType::artifact;
+    return seen == right ? Side::right : Side::left;
+}
+
+/// A person who looks at the clock when the stimulus comes and answers after half a second.
+struct Sitting {
+    SessionRunner& runner;
+    double now = 100;
+
+    void show() {
+        for (; !runner.stimulusDue(now); now += 0.05) runner.tick(now);
+        runner.images();
+        runner.shown(now);
+    }
+    std::optional<RunnerEvent> answer(bool right, double after = 0.5) {
+        const Side side = sideOf(runner.trial(), right);
+        now += after;
+        return runner.answer(side, now);
+    }
+};
+
+TEST(SessionRunner, RecordsEveryAnswerBeforeTheNextTrial) {
+    const tests::TemporaryFolder folder;
+    SessionRunner runner(requestIn(folder), kPace);
+    Sitting person{runner};
+    runner.begin(SessionRunner::Stage::session, person.now);
+    std::optional<RunnerEvent> event;
+    for (std::size_t i = 1; event != RunnerEvent::finished; ++i) {
+        person.show();
+        const Trial shown = runner.trial();
+        event = person.answer(i % 3 != 0);
+        const auto rows = records::readTrialTable(runner.recorded().table()).trials;
+        ASSERT_EQ(rows.size(), i);
+        EXPECT_EQ(rows.back().filterRadiusPx, shown.filterRadiusPx);
+        EXPECT_EQ(rows.back().correct, i % 3 != 0);
+        EXPECT_NEAR(rows.back().responseTimeS.value(), 0.5, 1e-6);
+    }
+    EXPECT_NO_THROW(replayTable(runner.recorded().table()));
+}
+
+TEST(SessionRunner, RepeatsWhatWasTooFastOrDisturbed) {
+    const tests::TemporaryFolder folder;
+    SessionRunner runner(requestIn(folder), kPace);
+    Sitting person{runner};
+    runner.begin(SessionRunner::Stage::session, person.now);
+    person.show();
+    const std::string condition = runner.trial().condition;
+    person.answer(true, 0.01);
+    EXPECT_TRUE(runner.lastTooFast());
+    person.show();
+    EXPECT_EQ(runner.trial().condition, condition);
+    EXPECT_TRUE(runner.interrupt());
+    runner.begin(SessionRunner::Stage::session, person.now);
+    person.show();
+    EXPECT_EQ(runner.trial().condition, condition);
+    person.answer(true);
+    const auto rows = records::readTrialTable(runner.recorded().table()).trials;
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].status, TrialStatus::tooFast);
+    EXPECT_EQ(rows[1].status, TrialStatus::repeated);
+    EXPECT_FALSE(rows[1].responseTimeS);
+    EXPECT_EQ(rows[2].status, TrialStatus::ok);
+    EXPECT_NO_THROW(replayTable(runner.recorded().table()));
+}
+
+TEST(SessionRunner, UndoneAnswersLeaveTheStaircasesAsIfTheyHadNotBeenGiven) {
+    const tests::TemporaryFolder folder;
+    SessionRunner runner(requestIn(folder), kPace);
+    Sitting person{runner};
+    runner.begin(SessionRunner::Stage::session, person.now);
+    for (int i = 0; i < 4; ++i) {
+        person.show();
+        person.answer(true);
+    }
+    person.show();
+    const Trial before = runner.trial();
+    const Session stateBefore = runner.session();
+    person.answer(false);
+    person.show();  // a disturbed trial after it is derived from it, and undone with it
+    ASSERT_TRUE(runner.canUndo());
+    EXPECT_TRUE(runner.undo());
+    EXPECT_FALSE(runner.canUndo());
+    const auto rows = records::readTrialTable(runner.recorded().table()).trials;
+    ASSERT_EQ(rows.size(), 6u);
+    EXPECT_EQ(rows[3].status, TrialStatus::ok);
+    EXPECT_EQ(rows[4].status, TrialStatus::undone);
+    EXPECT_EQ(rows[5].status, TrialStatus::undone);
+    EXPECT_EQ(runner.session().answered(), stateBefore.answered());
+    EXPECT_EQ(runner.session().next().condition, before.condition);
+    EXPECT_EQ(runner.session().next().proposedRadiusPx, before.proposedRadiusPx);
+    EXPECT_EQ(runner.session().next().number, 7);
+    runner.begin(SessionRunner::Stage::session, person.now);
+    person.show();
+    person.answer(true);
+    EXPECT_EQ(replayTable(runner.recorded().table()).session.answered(), 5u);
+}
+
+TEST(SessionRunner, AsksForBreaksByTheNumberOfAnswers) {
+    const tests::TemporaryFolder folder;
+    Presentation pace = kPace;
+    pace.breakEveryTrials = 4;
+    SessionRunner runner(requestIn(folder), pace);
+    Sitting person{runner};
+    runner.begin(SessionRunner::Stage::session, person.now);
+    std::vector<RunnerEvent> events;
+    for (int i = 0; i < 8; ++i) {
+        person.show();
+        events.push_back(person.answer(true).value());
+        if (events.back() == RunnerEvent::breakDue) {
+            runner.begin(SessionRunner::Stage::session, person.now);
+        }
+    }
+    EXPECT_EQ(events[3], RunnerEvent::breakDue);
+    EXPECT_EQ(events[7], RunnerEvent::breakDue);
+    EXPECT_EQ(std::ranges::count(events, RunnerEvent::breakDue), 2);
+}
+
+TEST(SessionRunner, GoesOnWithItsClockAfterAResume) {
+    const tests::TemporaryFolder folder;
+    double last = 0;
+    {
+        SessionRunner runner(requestIn(folder), kPace);
+        Sitting person{runner};
+        runner.begin(SessionRunner::Stage::session, person.now);
+        person.show();
+        person.answer(true);
+        last = runner.rows().back().onsetS.value() + 0.5;
+    }
+    SessionRunner runner(requestIn(folder), kPace);
+    Sitting person{runner, 3};  // the clock of another start
+    EXPECT_EQ(runner.practice().rule(), kPace.resumedPractice);
+    runner.begin(SessionRunner::Stage::session, person.now);
+    person.show();
+    person.answer(true);
+    EXPECT_NEAR(runner.rows().back().onsetS.value(), last + 0.2, 0.06);  // steps of the loop above
+}
+
+TEST(SessionRunner, RefusesASecondProgramOnTheSameSession) {
+    const tests::TemporaryFolder folder;
+    const SessionRunner first(requestIn(folder), kPace);
+    EXPECT_THROW(SessionRunner(requestIn(folder), kPace), std::runtime_error);
+}
+
+TEST(Practice, EndsWhenItsRuleIsMetAndAsksForHelpWhenItIsNot) {
+    for (const Task task : {Task::twoAfc, Task::yesNo}) {
+        const PracticeRule rule{.correct = 4, .ofLast = 5, .atMost = 10};
+        Practice good(smallDesign(task), 1, rule), bad(smallDesign(task), 1, rule);
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_FALSE(good.ruleMet());
+            good.answer(responseFor(sideOf(good.next(), true), task));
+        }
+        EXPECT_TRUE(good.ruleMet());
+        for (int i = 0; i < 10; ++i) bad.answer(responseFor(sideOf(bad.next(), false), task));
+        EXPECT_TRUE(bad.exhausted());
+        bad.startAgain();
+        EXPECT_FALSE(bad.exhausted());
+    }
+}
+
+TEST(Practice, ShowsArtifactsThatNobodyOverlooks) {
+    Practice practice(smallDesign(Task::yesNo), 3, {});
+    int references = 0;
+    for (int i = 0; i < 40; ++i) {
+        const Trial trial = practice.next();
+        EXPECT_LE(trial.filterRadiusPx, trial.artifactPx);
+        references += trial.type == records::TrialType::reference ? 1 : 0;
+        practice.answer(Response::seen);
+    }
+    EXPECT_EQ(references, 20);
+}
+
+TEST(TrialStimulus, IsWhatStimulusComputesOnTheSideThatTheRowNames) {
+    Session session(smallDesign(), 5);
+    for (int i = 0; i < 12; ++i) {
+        const Trial& trial = session.next();
+        const TrialImages images = trialImages(trial, 64);
+        stimulus::StimulusOptions o;
+        o.silhouette = {.pattern = trial.pattern == records::Pattern::stair
+                                       ? stimulus::Pattern::stair
+                                       : stimulus::Pattern::step,
+                        .artifactPx = trial.artifactPx,
+                        .riserSpacingPx = 64};
+        o.kernel.radiusPx = trial.filterRadiusPx;
+        o.windowPx = 64;
+        o.roving = {.straightTiltDeg = trial.tiltDeg,
+                    .shiftPx = trial.shiftPx.value(),
+                    .mirror = trial.mirror.value(),
+                    .quarterTurns = trial.orientationQuarter.value()};
+        const cv::Mat& artifact = trial.side == "left" ? images.left : images.right;
+        EXPECT_EQ(cv::countNonZero(artifact != stimulus::artifactImage(o)), 0);
+        const cv::Mat& straight = trial.side == "left" ? images.right : images.left;
+        EXPECT_EQ(cv::countNonZero(straight != stimulus::straightImage(o)), 0);
+        session.answer({.response = i % 2 == 0 ? Response::left : Response::right});
+    }
+}
+
+TEST(StimulusPrefetcher, HoldsWhicheverTrialComesNext) {
+    Session session(smallDesign(), 5);
+    StimulusPrefetcher prefetcher(64);
+    for (int i = 0; i < 12; ++i) {
+        EXPECT_TRUE(prefetcher.take(session.next()) == trialImages(session.next(), 64));
+        const std::vector<Trial> coming = possibleNext(session);
+        prefetcher.request(coming);
+        session.answer({.response = i % 3 == 0 ? Response::left : Response::right});
+        if (session.finished()) break;
+        EXPECT_THAT(coming, testing::Contains(session.next()));
+    }
+}
+
+TEST(StimulusPrefetcher, PassesErrorsOn) {
+    Trial trial = Session(smallDesign(), 5).next();
+    trial.kernel = "star";
+    StimulusPrefetcher prefetcher(64);
+    EXPECT_THROW(prefetcher.take(trial), std::invalid_argument);
+    prefetcher.request({trial});
+    EXPECT_THROW(prefetcher.take(trial), std::invalid_argument);
+}
+
+TEST(SessionFlags, FindAStaircaseAtTheDisplaysLimitAndACarelessObserver) {
+    Design d = smallDesign();
+    d.trialsPerCondition = 20;
+    d.catchShare = 0.2;
+    Session session(d, 1);
+    while (!session.finished()) {
+        const Trial& t = session.next();
+        // Never fooled by blur, but blind to the trials that check attention.
+        const bool right = !session.nextIsCatch();
+        session.answer(
+            {.response = (t.side == "left") == right ? Response::left : Response::right});
+    }
+    const auto results = conditionResults(session);
+    EXPECT_TRUE(results[0].atLimit);
+    EXPECT_THAT(flagText(results[0]), testing::HasSubstr("display limit"));
+    EXPECT_LT(results[0].cLow, results[0].threshold.c);
+    EXPECT_GT(results[0].cHigh, results[0].threshold.c);
+    EXPECT_TRUE(catchResult(session).flagged);
+}
+
+TEST(SessionFlags, ARerunIsTheConditionAlone) {
+    const Design d = smallDesign();
+    for (std::size_t k = 0; k < conditions(d).size(); ++k) {
+        const Design rerun = rerunDesign(d, k);
+        EXPECT_EQ(validate(rerun), "");
+        ASSERT_EQ(conditions(rerun).size(), 1u);
+        EXPECT_EQ(conditions(rerun)[0].name, conditions(d)[k].name);
+    }
+}
+
+TEST(SetupForm, FindsWhatIsThereAndKeepsToIt) {
+    const tests::TemporaryFolder folder;
+    SetupForm form;
+    form.dataFolder = (folder.path() / "data").string();
+    form.participant = "01";
+    EXPECT_EQ(findExisting(form).state, ExistingSession::State::none);
+    {
+        SessionRunner runner(requestIn(folder), kPace);
+        Sitting person{runner};
+        runner.begin(SessionRunner::Stage::session, person.now);
+        person.show();
+        person.answer(true);
+    }
+    const ExistingSession existing = findExisting(form);
+    EXPECT_EQ(existing.state, ExistingSession::State::unfinished);
+    EXPECT_EQ(existing.answered, 1u);
+    form.design = "paper16";
+    DisplayProfile display;
+    display.widthPx = display.heightPx = 1;
+    const SessionRequest request =
+        requestFrom(form, existing, display, 99, requestIn(folder).context);
+    EXPECT_EQ(request.design, smallDesign());
+    EXPECT_EQ(request.seed, 11u);
+    EXPECT_THAT(describeParticipants(form.dataFolder), testing::ElementsAre("01: 1 of 13 trials"));
+    std::ofstream(
+        records::sidecarPath(records::trialTablePath(form.dataFolder, "01", std::nullopt)))
+        << "{";
+    EXPECT_EQ(findExisting(form).state, ExistingSession::State::unusable);
+}
+
+TEST(SetupForm, SaysWhatIsMissing) {
+    SetupForm form;
+    EXPECT_THAT(missing(form), testing::HasSubstr("participant"));
+    form.participant = "a b";
+    EXPECT_THAT(missing(form), testing::HasSubstr("letters and digits"));
+    form.participant = "07";
+    EXPECT_EQ(missing(form), "");
+    form.seed = "1.5";
+    EXPECT_THAT(missing(form), testing::HasSubstr("seed"));
+    form.seed = "";
+    form.age = "old";
+    EXPECT_THAT(missing(form), testing::HasSubstr("age"));
+}
+
+TEST(SetupForm, ChangesTheTaskAtTheSameCriterion) {
+    const Design pair = smallDesign();
+    const Design single = withTask(pair, Task::yesNo);
+    EXPECT_EQ(validate(single), "");
+    EXPECT_NEAR(quest::criterion(single.staircase), quest::criterion(pair.staircase), 1e-12);
+    const Design back = withTask(single, Task::twoAfc);
+    EXPECT_EQ(validate(back), "");
+    EXPECT_NEAR(back.staircase.pThreshold, pair.staircase.pThreshold, 1e-12);
+}
+
+TEST(ParticipantsTable, KeepsDetailsBesideWhatOthersWrote) {
+    const tests::TemporaryFolder folder;
+    std::ofstream(folder.path() / "participants.tsv")
+        << "participant_id\thandedness\nsub-01\tleft\n";
+    const records::ParticipantDetails details{.age = 31, .gender = "f", .expertise = "graphics"};
+    records::writeParticipant(folder.path(), "02", details);
+    records::writeParticipant(folder.path(), "01", {.age = 40, .gender = "", .expertise = ""});
+    EXPECT_EQ(records::readParticipant(folder.path(), "02"), details);
+    EXPECT_EQ(records::readParticipant(folder.path(), "01")->age, 40);
+    EXPECT_FALSE(records::readParticipant(folder.path(), "03"));
+    std::ifstream file(folder.path() / "participants.tsv");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_EQ(text,
+              "participant_id\thandedness\tage\tgender\texpertise\n"
+              "sub-01\tleft\t40\tn/a\tn/a\n"
+              "sub-02\tn/a\t31\tf\tgraphics\n");
+    EXPECT_THROW(
+        records::writeParticipant(folder.path(), "02", {.age = 500, .gender = "", .expertise = ""}),
+        std::invalid_argument);
+    EXPECT_THROW(records::writeParticipant(folder.path(), "02",
+                                           {.age = {}, .gender = "a\tb", .expertise = ""}),
+                 std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace study_app

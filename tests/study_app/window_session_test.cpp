@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// Whole sessions as a person sits through them: a real window under Xvfb, real key events. Every
+// stimulus is read back from the framebuffer and compared with its codes (--verify-pixels), so any
+// session that ends well has shown what was computed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "records/trial_table.h"
+#include "study_app/design_file.h"
+#include "study_app/recorded_session.h"
+#include "tests/run_command.h"
+#include "tests/study_app/window_person.h"
+#include "tests/temporary_folder.h"
+
+namespace tests {
+namespace {
+
+using records::Trial;
+using records::TrialStatus;
+
+constexpr const char* kDesign = R"({
+  "schema": {"name": "stairwell design", "major": 1, "minor": 0},
+  "name": "tiny", "description": "for tests", "window_px": 240, "artifact_px": [8, 12],
+  "patterns": ["stair", "step"], "trials_per_condition": 2, "catch_share": 0.2,
+  "radius_px": {"max": 120}
+})";
+
+/// Quick, without practice, and with room for a slow machine.
+constexpr const char* kPace = R"({"blank_s": 0.02, "fixation_s": 0.05, "too_fast_s": 0,
+  "break_every_trials": 0, "practice": {"correct": 0}, "resumed_practice": {"correct": 0}})";
+
+class WindowSession : public testing::Test {
+  protected:
+    std::vector<std::string> arguments(const std::string& pace = kPace) const {
+        std::ofstream(folder_.path() / "tiny.json") << kDesign;
+        std::ofstream(folder_.path() / "pace.json") << pace;
+        return {"--design",
+                (folder_.path() / "tiny.json").string(),
+                "--data",
+                data(),
+                "--participant",
+                "01",
+                "--seed",
+                "7",
+                "--start",
+                "--presentation",
+                (folder_.path() / "pace.json").string()};
+    }
+    std::string data() const { return (folder_.path() / "data").string(); }
+    std::filesystem::path table() const {
+        return records::trialTablePath(data(), "01", std::nullopt);
+    }
+    std::vector<Trial> rows() const { return records::readTrialTable(table()).trials; }
+
+    /// Presses the arrow and returns it when the answer is on disk.
+    static std::string answer(WindowPerson& person, const std::string& side) {
+        person.waitFor("stimulus");
+        person.press(side == "left" ? "Left" : "Right");
+        return person.waitFor("row");
+    }
+    static void answerAll(WindowPerson& person) {
+        for (;;) {
+            const std::string event = person.nextEvent();
+            if (event == "screen end") return;
+            if (event.starts_with("stimulus")) person.press("Left");
+        }
+    }
+
+    XServer server_;
+    TemporaryFolder folder_;
+};
+
+TEST_F(WindowSession, QuickDesignFromSetUpToEndRecordsWhatWasPressed) {
+    std::ofstream(folder_.path() / "pace.json")
+        << R"({"blank_s": 0.02, "fixation_s": 0.05, "too_fast_s": 0, "feedback_s": 0.02,
+               "break_every_trials": 40, "break_minimum_s": 0})";
+    WindowPerson person(server_, folder_.path(),
+                        {"--design", "quick", "--data", data(), "--participant", "01", "--age",
+                         "33", "--presentation", (folder_.path() / "pace.json").string()});
+    std::vector<std::string> pressed, screens;
+    for (std::string event; event != "screen end";) {
+        event = person.nextEvent();
+        const bool practice = event.starts_with("practice");
+        if (practice || event.starts_with("stimulus")) {
+            // Right in practice; in the trials left and right in turn.
+            const bool left = practice ? event.ends_with("left") : pressed.size() % 2 == 0;
+            person.press(left ? "Left" : "Right");
+            if (!practice) pressed.push_back(left ? "left" : "right");
+        } else if (event.starts_with("screen")) {
+            screens.push_back(event.substr(7));
+            if (event != "screen trials" && event != "screen practice" && event != "screen end") {
+                person.press("Return");
+            }
+        }
+    }
+    person.press("Return");
+    EXPECT_EQ(person.exitCode(), 0) << person.errors();
+    EXPECT_THAT(screens, testing::ElementsAre("setup", "calibration", "instructions", "practice",
+                                              "practice-over", "trials", "break", "trials", "end"));
+    const auto recorded = rows();
+    ASSERT_EQ(recorded.size(), pressed.size());
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+        EXPECT_EQ(records::toText(recorded[i].response), pressed[i]);
+        EXPECT_EQ(recorded[i].status, TrialStatus::ok);
+        EXPECT_GT(recorded[i].responseTimeS.value(), 0);
+    }
+    EXPECT_TRUE(study_app::replayTable(table()).session.finished());
+    std::ifstream participants(folder_.path() / "data" / "participants.tsv");
+    const std::string text{std::istreambuf_iterator<char>(participants), {}};
+    EXPECT_THAT(text, testing::HasSubstr("sub-01\t33"));
+}
+
+TEST_F(WindowSession, YesNoTaskTakesTheSameKeys) {
+    auto with = arguments();
+    with.insert(with.end(), {"--task", "yes_no"});
+    WindowPerson person(server_, folder_.path(), with);
+    person.waitFor("screen instructions");
+    person.press("Return");
+    answerAll(person);
+    for (const Trial& row : rows()) EXPECT_EQ(row.response, records::Response::notSeen);
+}
+
+TEST_F(WindowSession, BackspaceTakesTheLastAnswerBack) {
+    WindowPerson person(server_, folder_.path(), arguments());
+    person.waitFor("screen instructions");
+    person.press("Return");
+    for (int i = 0; i < 3; ++i) answer(person, "right");
+    person.waitFor("stimulus");
+    person.press("BackSpace");
+    answerAll(person);
+    const auto recorded = rows();
+    const auto count = [&](TrialStatus status) {
+        return std::ranges::count_if(recorded, [&](const Trial& t) { return t.status == status; });
+    };
+    EXPECT_EQ(recorded[2].status, TrialStatus::undone);
+    EXPECT_EQ(recorded[3].status, TrialStatus::undone);  // was on screen, derived from row 3
+    EXPECT_EQ(recorded[4].condition, recorded[2].condition);
+    EXPECT_EQ(count(TrialStatus::ok), 10);
+    EXPECT_TRUE(study_app::replayTable(table()).session.finished());
+}
+
+TEST_F(WindowSession, PausesQuitsAndResumesWhereItWas) {
+    {
+        WindowPerson person(server_, folder_.path(), arguments());
+        person.waitFor("screen instructions");
+        person.press("Return");
+        for (int i = 0; i < 3; ++i) answer(person, "left");
+        person.waitFor("stimulus");
+        person.press("Escape");
+        person.waitFor("screen pause");
+        person.press("Return");
+        answer(person, "left");
+        person.waitFor("stimulus");
+        person.press("Escape");
+        person.waitFor("screen pause");
+        person.press("q");
+        EXPECT_EQ(person.exitCode(), 0) << person.errors();
+    }
+    EXPECT_EQ(rows()[3].status, TrialStatus::repeated);
+    EXPECT_EQ(study_app::replayTable(table()).session.answered(), 4u);
+    WindowPerson person(server_, folder_.path(), arguments());
+    person.waitFor("screen instructions");
+    person.press("Return");
+    answerAll(person);
+    EXPECT_TRUE(study_app::replayTable(table()).session.finished());
+}
+
+TEST_F(WindowSession, KilledInMidTrialItLosesNothingAndGoesOnTheSame) {
+    Trial next;
+    {
+        WindowPerson person(server_, folder_.path(), arguments());
+        person.waitFor("screen instructions");
+        person.press("Return");
+        for (int i = 0; i < 4; ++i) answer(person, "left");
+        person.waitFor("stimulus");
+        person.kill();
+    }
+    ASSERT_EQ(rows().size(), 4u);
+    next = study_app::replayTable(table()).session.next();
+    WindowPerson person(server_, folder_.path(), arguments());
+    person.waitFor("screen instructions");
+    person.press("Return");
+    answerAll(person);
+    EXPECT_EQ(rows()[4].proposedRadiusPx, next.proposedRadiusPx);
+    EXPECT_EQ(rows()[4].side, next.side);
+    EXPECT_TRUE(study_app::replayTable(table()).session.finished());
+}
+
+TEST_F(WindowSession, MashingKeysGivesOneAnswerPerTrial) {
+    WindowPerson person(server_, folder_.path(), arguments(R"({"blank_s": 0.3, "fixation_s": 0.2,
+        "too_fast_s": 0, "break_every_trials": 0, "practice": {"correct": 0}})"));
+    person.waitFor("screen instructions");
+    person.press("Return");
+    person.press("Left Right Left");  // before anything is on screen
+    person.waitFor("stimulus 1");
+    person.press("Right Left Left Right");
+    person.waitFor("stimulus 2");
+    const auto recorded = rows();
+    ASSERT_EQ(recorded.size(), 1u);
+    EXPECT_EQ(recorded[0].response, records::Response::right);
+}
+
+TEST_F(WindowSession, MarksWhatIsTooFastToBeAnAnswer) {
+    WindowPerson person(server_, folder_.path(), arguments(R"({"blank_s": 0.02, "fixation_s": 0.05,
+        "too_fast_s": 2, "break_every_trials": 0, "practice": {"correct": 0}})"));
+    person.waitFor("screen instructions");
+    person.press("Return");
+    EXPECT_EQ(answer(person, "left"), "row 1 too_fast");
+    EXPECT_EQ(answer(person, "left"), "row 2 too_fast");
+    EXPECT_EQ(rows()[0].condition, rows()[1].condition);
+}
+
+TEST_F(WindowSession, RepeatsATrialInWhichTheWindowWasDisturbed) {
+    WindowPerson person(server_, folder_.path(), arguments());
+    person.waitFor("screen instructions");
+    person.press("Return");
+    person.waitFor("stimulus");
+    person.xdotool({"windowsize", person.window(), "1000", "700"});
+    person.waitFor("screen pause");
+    EXPECT_EQ(person.waitFor("row"), "row 1 repeated");
+    person.press("Return");
+    EXPECT_EQ(answer(person, "left"), "row 2 ok");
+}
+
+TEST_F(WindowSession, DoesNotShowStimuliThatTheWindowCannotHold) {
+    auto with = arguments();
+    with.insert(with.end(), {"--window-size", "500", "400"});
+    WindowPerson person(server_, folder_.path(), with);
+    person.waitFor("screen instructions");
+    person.press("Return");
+    person.waitFor("screen pause");
+    person.xdotool({"windowsize", person.window(), "700", "400"});
+    person.press("Return");
+    EXPECT_EQ(answer(person, "left"), "row 1 ok");
+}
+
+TEST_F(WindowSession, WaitsWithoutUsingTheProcessor) {
+    WindowPerson person(server_, folder_.path(), arguments());
+    person.waitFor("screen instructions");
+    person.press("Return");
+    person.waitFor("stimulus");
+    const double before = person.processorSeconds();
+    ::usleep(2000000);
+    // Less than 5 % of a core, whatever else the machine does: it is the program's own time.
+    EXPECT_LT(person.processorSeconds() - before, 0.1);
+}
+
+TEST(WindowProgram, SaysWhatIsMissingInOneSentence) {
+    const TemporaryFolder folder;
+    ::unsetenv("DISPLAY");
+    ::unsetenv("WAYLAND_DISPLAY");
+    const CommandResult noDisplay = runProgram("study_app", {"--data", folder.path().string()});
+    EXPECT_EQ(noDisplay.exitCode, 1);
+    EXPECT_THAT(noDisplay.err, testing::HasSubstr("DISPLAY"));
+    const XServer server;
+    WindowPerson person(server, folder.path(), {"--start", "--data", folder.path().string()});
+    EXPECT_EQ(person.exitCode(), 1);
+    EXPECT_THAT(person.errors(), testing::HasSubstr("Give the participant an id"));
+}
+
+}  // namespace
+}  // namespace tests
