@@ -219,11 +219,14 @@ class ResolutionController {
     /// Back to a state of this controller's own; takes back whatever came after it.
     void restore(const ControllerState& state) noexcept { state_ = state; }
 
-  private:
     struct Limits {
-        std::int32_t low, high;  // levels
-        Reason binding;          // what sets `high`
+        std::int32_t low, high;  ///< levels
+        Reason binding;          ///< what sets `high`
     };
+    /// Between which sizes a frame's decision lies.
+    Limits limits(const Frame& frame) const noexcept;
+
+  private:
     /// Texels that this frame's data ask for.
     struct Need {
         double filter = 0;  // as the law has it
@@ -234,7 +237,6 @@ class ResolutionController {
         }
     };
 
-    Limits limits(const Frame& frame) const noexcept;
     std::int32_t within(const Limits& limits) const noexcept;
     void begin(const Frame& frame) noexcept;
     std::optional<Reason> unusable(const Frame& frame) const noexcept;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Cost of one light's decision in a frame. Goal: at most 1 us with a histogram.
+// Cost of the decisions of a frame. Goals: at most 1 us for one light with a histogram, at most 50
+// us for 64 lights under a budget.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <vector>
 
+#include "resolution_controller/light_set.h"
 #include "resolution_controller/resolution_controller.h"
 
 namespace {
@@ -55,5 +57,30 @@ void addOneDemand(benchmark::State& state) {
     }
 }
 BENCHMARK(addOneDemand);
+
+/// Half with histograms, half with radii, all of them moving; the budget is what they want over the
+/// second argument.
+void updateLightsUnderBudget(benchmark::State& state) {
+    const auto frames = breathingScene();
+    const auto count = static_cast<std::size_t>(state.range(0));
+    const std::vector<rc::Settings> settings(count);
+    rc::LightSet lights(settings);
+    std::vector<rc::LightData> data(count);
+    std::vector<rc::Decision> decisions(count);
+    std::size_t frame = 0;
+    const auto step = [&](const rc::Budget& budget) {
+        ++frame;
+        for (std::size_t i = 0; i < count; ++i) {
+            data[i].kind = i % 2 ? rc::LightData::Kind::radius : rc::LightData::Kind::histogram;
+            data[i].histogram = &frames[(frame + 4 * i) % frames.size()];
+            data[i].radiusUv = 0.002 * (2 + std::sin(0.02 * static_cast<double>(frame + 31 * i)));
+        }
+        return lights.update(data, decisions, budget);
+    };
+    const std::uint64_t wanted = step({}).budget.used;
+    const rc::Budget budget{.texels = static_cast<std::int64_t>(wanted) / (state.range(1))};
+    for (auto _ : state) benchmark::DoNotOptimize(step(budget));
+}
+BENCHMARK(updateLightsUnderBudget)->Args({64, 1})->Args({64, 2})->Args({64, 16})->Args({64, 256});
 
 }  // namespace

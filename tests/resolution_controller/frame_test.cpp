@@ -88,7 +88,8 @@ TEST(CrossFade, IsAbsentByDefaultAndBeforeAnythingChanged) {
 
 TEST(Frame, ContrastTermActsOnTheSlopeAndOnlyWithAnExponent) {
     const rc::Settings with{.slope = {.contrastExponent = 0.5}};
-    EXPECT_EQ(rc::ResolutionController(with).update(radiusFor(999.5), {.contrast = 0.25}).need, 500);
+    EXPECT_EQ(rc::ResolutionController(with).update(radiusFor(999.5), {.contrast = 0.25}).need,
+              500);
     EXPECT_EQ(rc::ResolutionController({}).update(radiusFor(999.5), {.contrast = 0.25}).need, 1000);
     EXPECT_EQ(rc::ResolutionController(with).update(radiusFor(999.5), {.contrast = kNan}).need,
               1000);
