@@ -25,7 +25,8 @@ DifferenceBound discBound(double delta, double spread, double band) {
     const auto halfChord = [](double t) { return std::sqrt((1 - t) * (1 + t)); };
     const double arc = std::asin(high) - std::asin(low);
     const double outside = std::max(std::abs(delta) - 1, 0.0);  // where 1 - delta t may be negative
-    const double moved = arc * (1 + spread + 2 * outside) + delta * (halfChord(high) - halfChord(low));
+    const double moved =
+        arc * (1 + spread + 2 * outside) + delta * (halfChord(high) - halfChord(low));
     constexpr double scale = 2 * std::numbers::inv_pi;  // two arcs, density 1/pi
     return {.along = scale * (high - low),
             .across = scale * variation(low, high, halfChord),
@@ -43,8 +44,10 @@ DifferenceBound boxBound(double delta, double spread, double band, double cosAng
                                      {-sinAngle, cosAngle}}};
     DifferenceBound bound;
     for (const auto& [across, along] : sides) {
-        // The side covers across +- |along| in the direction across the edge; the band lies at -delta.
-        const double half = std::max(std::abs(along), 1e-12);  // a level side lies in or out as a whole
+        // The side covers across +- |along| in the direction across the edge; the band lies at
+        // -delta.
+        const double half =
+            std::max(std::abs(along), 1e-12);  // a level side lies in or out as a whole
         const double low = std::max(across - half, -delta - spread - band);
         const double high = std::min(across + half, -delta + spread + band);
         if (high <= low) continue;
@@ -60,11 +63,13 @@ DifferenceBound gaussianBound(double delta, double spread, double band) {
     const double low = delta - spread - band, high = delta + spread + band;
     constexpr double peak = 2 / (std::numbers::sqrt2 / std::numbers::inv_sqrtpi);  // 2 / sqrt(2 pi)
     const auto density = [](double t) { return peak * std::exp(-2 * t * t); };
-    const double mass = marginal(KernelShape::gaussian, high) - marginal(KernelShape::gaussian, low);
+    const double mass =
+        marginal(KernelShape::gaussian, high) - marginal(KernelShape::gaussian, low);
     const double change = variation(low, high, density);
     // Along the edge the density's gradient integrates to twice its peak, and weighted with the
     // distance to 1.
-    return {.along = mass * 2 * peak, .across = change, .inRadius = mass + (spread + band) * change};
+    return {
+        .along = mass * 2 * peak, .across = change, .inRadius = mass + (spread + band) * change};
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // How fast the difference e between the filtered artifact and the filtered straight edge can change
-// from place to place and from radius to radius. With it a few evaluations prove that a whole region
-// stays below a threshold, where evaluating every pixel at every radius would take minutes
+// from place to place and from radius to radius. With it a few evaluations prove that a whole
+// region stays below a threshold, where evaluating every pixel at every radius would take minutes
 // (reference_radius.cpp).
 //
 // Coordinates of a place, so that the kernel's features keep theirs as it grows: s along the true
 // silhouette (px), delta = distance from it divided by the radius. e is the kernel's integral over
 // the mismatch of the two edges (+1, -1 or 0), which lies in a band of half-width b about the
-// silhouette. Its derivatives are at most the flow of the kernel's density across its boundary (box,
-// disc) or of its gradient (Gaussian) inside the band, whatever the shape of the mismatch.
+// silhouette. Its derivatives are at most the flow of the kernel's density across its boundary
+// (box, disc) or of its gradient (Gaussian) inside the band, whatever the shape of the mismatch.
 #pragma once
 
 #include "stimulus/kernel.h"

@@ -6,7 +6,9 @@
 //   code  V is blended in code values (the published study's presets).
 //
 // Code = floor(encode(V) W + 1/2), W = 255 x lit level: the level scales codes, after the encoding.
-// Codes never fall as V or the lit level rises.
+// Codes never fall as V or the lit level rises. What lies within 1e-9 of a tie counts as the tie,
+// so that no code hangs on the last bits of V: at lit level 1/2 full light is the tie 127.5, and a
+// Gaussian never quite gets there.
 #pragma once
 
 #include <cmath>
@@ -28,11 +30,14 @@ inline double encodeSlope(double v, Encoding encoding) {
     return v <= 0.0031308 ? 12.92 : 1.055 / 2.4 * std::pow(v, 1 / 2.4 - 1);
 }
 
-/// `rounding` in [0, 1) is 1/2, or a uniform random number per pixel for dither: the mean code is
-/// then exact, and no contour shows where a wide ramp changes from one code to the next.
-inline std::uint8_t displayCode(double v, double litLevel, Encoding encoding,
-                                double rounding = 0.5) {
-    return static_cast<std::uint8_t>(encode(v, encoding) * (255 * litLevel) + rounding);
+inline std::uint8_t displayCode(double v, double litLevel, Encoding encoding) {
+    return static_cast<std::uint8_t>(encode(v, encoding) * (255 * litLevel) + (0.5 + 1e-9));
+}
+
+/// The same with a random number, uniform in [0, 1), in place of 1/2: the mean code is then exact,
+/// and no contour shows where a wide ramp changes from one code to the next.
+inline std::uint8_t ditheredCode(double v, double litLevel, Encoding encoding, double uniform) {
+    return static_cast<std::uint8_t>(encode(v, encoding) * (255 * litLevel) + uniform);
 }
 
 /// Throws std::invalid_argument unless the lit level is in [0, 1].

@@ -36,12 +36,13 @@ double massBelow(const Side& left, const Side& right, double v, double marginalV
 
 double massBelow(KernelShape shape, const Side& left, const Side& right, double v,
                  double marginalV) {
-    if (shape == KernelShape::disc)
-        return massBelow<KernelShape::disc>(left, right, v, marginalV);
+    if (shape == KernelShape::disc) return massBelow<KernelShape::disc>(left, right, v, marginalV);
     return massBelow<KernelShape::box>(left, right, v, marginalV);
 }
 
-double clampToUnit(double value) { return std::clamp(value, 0.0, 1.0); }
+double clampToUnit(double value) {
+    return std::clamp(value, 0.0, 1.0);
+}
 
 /// The sum over texel columns, with the kernel's marginal by whatever means.
 template <typename Marginal>
@@ -84,8 +85,8 @@ ApproximateArtifact::ApproximateArtifact(KernelShape shape) {
 double ApproximateArtifact::visibility(const Silhouette& silhouette, const Kernel& kernel, double x,
                                        double y) const {
     const double limit = reach(kernel.shape);
-    // Linear interpolation is off by at most 4e-7 (at the ends of the disc, where the marginal bends
-    // most); in the sum over columns the errors of a marginal cancel but for a few.
+    // Linear interpolation is off by at most 4e-7 (at the ends of the disc, where the marginal
+    // bends most); in the sum over columns the errors of a marginal cancel but for a few.
     return visibilityBy(silhouette, kernel, x, y, [&](double t) {
         const double place = (std::clamp(t / limit, -1.0, 1.0) + 1) * (kTableIntervals / 2);
         const auto i = static_cast<std::size_t>(place);
@@ -120,7 +121,8 @@ ArtifactColumns::Tread ArtifactColumns::treadOf(std::int64_t k) const {
     // v falls from row to row: in full shadow while v > limit, not in shadow once v < -limit.
     const double reachPx = limit * kernel_.radiusPx;
     const auto nearRow = [&](double y) {
-        const double row = std::clamp(std::floor(y - bottomY_) - 1, 0.0, static_cast<double>(rows_));
+        const double row =
+            std::clamp(std::floor(y - bottomY_) - 1, 0.0, static_cast<double>(rows_));
         return static_cast<std::size_t>(row);
     };
     Tread tread{.k = k, .firstRow = nearRow(height - reachPx)};
@@ -153,7 +155,8 @@ void ArtifactColumns::addShadows(std::span<double> inShadow) const {
     std::size_t settled = 0;  // rows below it are in the full shadow of an earlier tread
     for (std::size_t i = 0; i < treads_.size(); ++i) {
         const Tread& tread = treads_[i];
-        const Side left{risers_[i].u, risers_[i].mass}, right{risers_[i + 1].u, risers_[i + 1].mass};
+        const Side left{risers_[i].u, risers_[i].mass},
+            right{risers_[i + 1].u, risers_[i + 1].mass};
         for (; settled < tread.firstRow; ++settled) inShadow[settled] += 1 - left.mass;
         double* rows = inShadow.data() + tread.firstRow;
         for (std::size_t j = 0; j < tread.v.size(); ++j)

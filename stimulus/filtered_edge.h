@@ -27,8 +27,8 @@ namespace stimulus {
 double artifactVisibility(const Silhouette& silhouette, const Kernel& kernel, double x, double y);
 double straightVisibility(const Silhouette& silhouette, const Kernel& kernel, double x, double y);
 
-/// V of the artifact within kError, several times as fast, from a table of the kernel's marginal: for
-/// searches that look at a million places.
+/// V of the artifact within kError, several times as fast, from a table of the kernel's marginal:
+/// for searches that look at a million places.
 class ApproximateArtifact {
   public:
     static constexpr double kError = 5e-6;

@@ -22,9 +22,8 @@ constexpr std::array<std::pair<KernelShape, std::string_view>, 3> kNames{{
 double projectedBox(double d, double narrow, double wide) {
     const double fromEnd = narrow + wide - std::abs(d);
     if (fromEnd <= 0) return d < 0 ? 0 : 1;
-    const double tail = fromEnd >= 2 * narrow
-                            ? (wide - std::abs(d)) / (2 * wide)
-                            : fromEnd / narrow * (fromEnd / wide) / 8;
+    const double tail = fromEnd >= 2 * narrow ? (wide - std::abs(d)) / (2 * wide)
+                                              : fromEnd / narrow * (fromEnd / wide) / 8;
     return d < 0 ? tail : 1 - tail;
 }
 

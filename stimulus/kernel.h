@@ -12,9 +12,10 @@
 //   quadrant(u, v)    mass in {x < u, y < v}, Q(u, v) of the stair-step formula
 //   halfPlane(d, ..)  mass in the half plane whose edge passes at signed distance d from the centre
 //
-// Disc: circular segments; g(t) = (t sqrt(1 - t^2) + asin t) / pi is marginal(t) - 1/2, and with the
-// corner inside the disc Q = 1/4 + (g(u) + g(v)) / 2 + u v / pi, the quarter, the two half segments
-// and the rectangle. Box: Q = E(u) E(v), E(t) = clip((t + 1) / 2, 0, 1). Gaussian: Q = Phi Phi.
+// Disc: circular segments; g(t) = (t sqrt(1 - t^2) + asin t) / pi is marginal(t) - 1/2, and with
+// the corner inside the disc Q = 1/4 + (g(u) + g(v)) / 2 + u v / pi, the quarter, the two half
+// segments and the rectangle. Box: Q = E(u) E(v), E(t) = clip((t + 1) / 2, 0, 1). Gaussian: Q = Phi
+// Phi.
 //
 // Radius 0 is the unfiltered edge: masses are 0 or 1, and 1/2 (a corner: 1/4) where an edge passes
 // exactly through the centre.
@@ -48,9 +49,11 @@ inline double normalised(const Kernel& kernel, double t) {
     return t == 0 ? 0 : std::copysign(std::numeric_limits<double>::infinity(), t);
 }
 
-/// Beyond this distance from the axes, in units of the radius, masses are 0 or 1. Gaussian: 8.4 sigma,
-/// where 2e-17 is left, which is less than double can tell from 1.
-inline double reach(KernelShape shape) { return shape == KernelShape::gaussian ? 4.2 : 1; }
+/// Beyond this distance from the axes, in units of the radius, masses are 0 or 1. Gaussian: 8.4
+/// sigma, where 2e-17 is left, which is less than double can tell from 1.
+inline double reach(KernelShape shape) {
+    return shape == KernelShape::gaussian ? 4.2 : 1;
+}
 
 inline double marginal(KernelShape shape, double t) {
     if (shape == KernelShape::gaussian) return 0.5 * std::erfc(-t * std::numbers::sqrt2);
@@ -73,8 +76,8 @@ inline double quadrant(KernelShape shape, double u, double v) {
     return quadrant(shape, u, marginal(shape, u), v, marginal(shape, v));
 }
 
-/// Mass in the half plane {x sin - y cos < d}: V of a straight edge at the given angle to the x axis,
-/// d = signed distance of the kernel's centre from it, positive on the lit side.
+/// Mass in the half plane {x sin - y cos < d}: V of a straight edge at the given angle to the x
+/// axis, d = signed distance of the kernel's centre from it, positive on the lit side.
 double halfPlane(KernelShape shape, double d, double cosAngle, double sinAngle);
 
 }  // namespace stimulus

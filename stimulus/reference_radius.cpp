@@ -24,9 +24,12 @@ struct Interval {
     double half() const { return (high - low) / 2; }
 };
 
-Interval turned(const Interval& interval) { return {-interval.high, -interval.low}; }
+Interval turned(const Interval& interval) {
+    return {-interval.high, -interval.low};
+}
 
-/// The values first, first + spacing, ... that lie in an interval; rounding at its ends is forgiven.
+/// The values first, first + spacing, ... that lie in an interval; rounding at its ends is
+/// forgiven.
 struct GridPoints {
     double first = 0, spacing = 1;
     int count = 0;
@@ -40,8 +43,12 @@ GridPoints gridPoints(const Interval& interval, double origin, double spacing) {
     return {origin + low * spacing, spacing, std::max(0, static_cast<int>(high - low) + 1)};
 }
 
-GridPoints pixelsIn(const Interval& interval) { return gridPoints(interval, 0.5, 1); }
-GridPoints radiiIn(const Interval& interval) { return gridPoints(interval, 0, kRadiusGridPx); }
+GridPoints pixelsIn(const Interval& interval) {
+    return gridPoints(interval, 0.5, 1);
+}
+GridPoints radiiIn(const Interval& interval) {
+    return gridPoints(interval, 0, kRadiusGridPx);
+}
 
 /// One search's fixed facts.
 struct Problem {
@@ -95,10 +102,10 @@ struct Problem {
 };
 
 /// Finds the largest radius of the grid at which a pixel fails, by branch and bound over boxes of
-/// pixel columns, distances from the edge (in radii) and radii. A box is dropped when the difference
-/// in its middle and the greatest possible change from there prove that nothing in it can fail, and
-/// searched pixel by pixel once it holds only a few. The result is that of testing every pixel at
-/// every radius.
+/// pixel columns, distances from the edge (in radii) and radii. A box is dropped when the
+/// difference in its middle and the greatest possible change from there prove that nothing in it
+/// can fail, and searched pixel by pixel once it holds only a few. The result is that of testing
+/// every pixel at every radius.
 class LargestFailure {
   public:
     explicit LargestFailure(const Problem& problem)
@@ -135,8 +142,7 @@ class LargestFailure {
         box.x = {columns.first, columns.at(columns.count - 1)};
         box.radius = {radii.first, radii.at(radii.count - 1)};
 
-        const double rows =
-            2 * box.delta.half() * box.radius.high / problem_.silhouette.cosAngle();
+        const double rows = 2 * box.delta.half() * box.radius.high / problem_.silhouette.cosAngle();
         if (columns.count * radii.count * (rows + 1) <= 4) return visitPixels(box, radii);
         const Change change = greatestChange(box);
         if (cannotFail(box, change)) return;
@@ -162,11 +168,17 @@ class LargestFailure {
                 .radius = bound.inRadius / r * box.radius.half()};
     }
 
-    double approximateDifference(double x, double y, double radius) const {
+    /// At least |e|, by little. Where only equal codes will do, the table's error would leave too
+    /// many pixels near a change of code in doubt.
+    double differenceAt(double x, double y, double radius) const {
+        constexpr double roundingError = 1e-12;
+        const bool exact = problem_.criterion == ReferenceCriterion::identical;
         const Kernel kernel{problem_.kernel, radius};
-        return std::abs(approximate_.visibility(problem_.silhouette, kernel, x, y) -
-                        straightVisibility(problem_.silhouette, kernel, x, y)) +
-               ApproximateArtifact::kError;
+        const Silhouette& s = problem_.silhouette;
+        const double artifact =
+            exact ? artifactVisibility(s, kernel, x, y) : approximate_.visibility(s, kernel, x, y);
+        return std::abs(artifact - straightVisibility(s, kernel, x, y)) +
+               (exact ? roundingError : ApproximateArtifact::kError);
     }
 
     /// Whether a difference of at most `largest` keeps every pixel at these distances from failing:
@@ -203,7 +215,7 @@ class LargestFailure {
         if (!safe(changed * growth)) return false;  // whatever the middle's value
         const double x = box.x.middle(), radius = box.radius.middle();
         const double y = problem_.yOf(x, box.delta.middle() * radius);
-        return safe((approximateDifference(x, y, radius) + changed) * growth);
+        return safe((differenceAt(x, y, radius) + changed) * growth);
     }
 
     void split(const Box& box, const Change& worth) {
@@ -245,8 +257,7 @@ class LargestFailure {
 
     bool fails(double x, double y, double radius) const {
         const double delta = problem_.silhouette.distance(x, y) / radius;
-        const bool clearlyNot =
-            radius > 0 && isSafe({delta, delta}, approximateDifference(x, y, radius));
+        const bool clearlyNot = radius > 0 && isSafe({delta, delta}, differenceAt(x, y, radius));
         return !clearlyNot && problem_.fails(problem_.at(x, y, radius));
     }
 
@@ -255,29 +266,36 @@ class LargestFailure {
     std::optional<double> found_;
 };
 
+Problem problemOf(const ReferenceOptions& o, ReferenceCriterion criterion) {
+    validate(o);
+    const Silhouette silhouette(o.silhouette);
+    const auto period = silhouette.artifactPeriod();
+    const double left = -(o.windowPx / 2) + 0.5;  // as the images have it
+    const Interval columns =
+        period ? Interval{0.5, period->dx - 0.5} : Interval{left, left + o.windowPx - 1};
+    const bool columnsTurn = period || columns.low == -columns.high;
+    return {silhouette,
+            o.kernel,
+            o.litLevel,
+            o.encoding,
+            criterion,
+            columns,
+            o.silhouette.pattern != Pattern::line && columnsTurn};
+}
+
+}  // namespace
+
 void validate(const ReferenceOptions& o) {
+    Silhouette{o.silhouette};  // throws
     validateLitLevel(o.litLevel);
-    require(o.windowPx >= 1 && o.windowPx <= 8192, "window", o.windowPx, " px",
+    require(o.windowPx >= 1 && o.windowPx <= kMaxWindowPx, "window", o.windowPx, " px",
             "must be in 1..8192");
-    require(o.maxRadiusPx >= 1 && o.maxRadiusPx <= 8192, "bound of the radius", o.maxRadiusPx,
-            " px", "must be in [1, 8192]");
+    require(o.maxRadiusPx >= 1 && o.maxRadiusPx <= kMaxWindowPx, "bound of the radius",
+            o.maxRadiusPx, " px", "must be in [1, 8192]");
     const double texels = 2 * reach(o.kernel) * o.maxRadiusPx / o.silhouette.artifactPx;
     require(texels <= 20000, "number of texels across the largest kernel", texels, "",
             "must be at most 20000 (smaller bound of the radius or larger artifact)");
 }
-
-Problem problemOf(const ReferenceOptions& o, ReferenceCriterion criterion) {
-    const Silhouette silhouette(o.silhouette);
-    validate(o);
-    const double half = o.windowPx / 2.0;
-    Interval columns{-half, half};
-    if (const auto period = silhouette.artifactPeriod())
-        columns = {0.5, period->dx - 0.5};
-    return {silhouette, o.kernel, o.litLevel, o.encoding, criterion, columns,
-            o.silhouette.pattern != Pattern::line};
-}
-
-}  // namespace
 
 std::optional<double> referenceRadius(const ReferenceOptions& options,
                                       ReferenceCriterion criterion) {

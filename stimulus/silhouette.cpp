@@ -41,10 +41,14 @@ void validate(const SilhouetteOptions& o) {
                 o.riserSpacingPx, " px", "must be at least the artifact size, at most 65536");
 }
 
-bool isWhole(double value) { return value == std::floor(value); }
+bool isWhole(double value) {
+    return value == std::floor(value);
+}
 
 /// With ten binary places, every coordinate and product of this folder is exact in double.
-bool isExact(double value) { return isWhole(value * 1024); }
+bool isExact(double value) {
+    return isWhole(value * 1024);
+}
 
 }  // namespace
 
@@ -86,7 +90,9 @@ double Silhouette::height(std::int64_t k) const {
     return a * texels + options_.verticalPhasePx;
 }
 
-double Silhouette::angleDeg() const { return std::atan2(rise_, run_) / kDegree; }
+double Silhouette::angleDeg() const {
+    return std::atan2(rise_, run_) / kDegree;
+}
 
 double Silhouette::distance(double x, double y) const {
     // Whole run and rise (stair, step) make the numerator exact: equal distances have equal bits.
@@ -126,6 +132,8 @@ Silhouette Silhouette::withStraightEdgeAt(double angleDeg) const {
     return turned;
 }
 
-double trueAngleDeg(const SilhouetteOptions& options) { return Silhouette(options).angleDeg(); }
+double trueAngleDeg(const SilhouetteOptions& options) {
+    return Silhouette(options).angleDeg();
+}
 
 }  // namespace stimulus

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The two outlines of one stimulus: the shadow's edge as a shadow map of texel size a samples it
 // (the artifact, stair-steps), and the straight edge that was sampled (the true silhouette).
-// Kreuzer, "Using Perception-Based Filtering to Hide Shadow Artifacts", section 4.1: the study needs
-// no scene, only these outlines and a filter.
+// Kreuzer, "Using Perception-Based Filtering to Hide Shadow Artifacts", section 4.1: the study
+// needs no scene, only these outlines and a filter.
 //
 //   const Silhouette stair({.pattern = Pattern::stair, .artifactPx = 10});
 //   stair.height(stair.texelAt(x));     // the artifact's edge above x
@@ -16,9 +16,9 @@
 //          any other phase leaves a shift that no filter removes
 //   step   w = L, heights (k + 1/2) a: risers of height a at x = 0 and +-L; y = (a/L) x
 //   line   w = a, heights a round(height of the line at the column's centre / a); y = tan(angle) x,
-//          shifted by -a/(2q) where the slope is p/q with p and q odd. There the line passes half-way
-//          between two texels in every q-th column, the rounded heights lie off it by a/(2q) on
-//          average, and with the shift they are centred. line(45) is the stair.
+//          shifted by -a/(2q) where the slope is p/q with p and q odd. There the line passes
+//          half-way between two texels in every q-th column, the rounded heights lie off it by
+//          a/(2q) on average, and with the shift they are centred. line(45) is the stair.
 //
 // Everything is moved up by verticalPhasePx. The default keeps the edges off pixel centres and the
 // filtered values off the tie at code 127.5.
@@ -33,14 +33,16 @@ enum class Pattern { stair, step, line };
 
 struct SilhouetteOptions {
     Pattern pattern = Pattern::stair;
-    double artifactPx = 10;        ///< a > 0, up to kMaxSizePx; risers lie on pixel edges if whole
-    double angleDeg = 45;          ///< of a line alone, in (0, 45]
-    double riserSpacingPx = 600;   ///< L, of a step alone, a..kMaxSizePx; the window's width in studies
-    double verticalPhasePx = 0.25; ///< in [-1, 1]
+    double artifactPx = 10;  ///< a > 0, up to kMaxSizePx; risers lie on pixel edges if whole
+    double angleDeg = 45;    ///< of a line alone, in (0, 45]
+    double riserSpacingPx =
+        600;  ///< L, of a step alone, a..kMaxSizePx; the window's width in studies
+    double verticalPhasePx = 0.25;  ///< in [-1, 1]
 };
 
 /// Sizes above this are refused, px: larger than any screen, and safe in every index computation.
 inline constexpr double kMaxSizePx = 65536;
+inline constexpr int kMaxWindowPx = 8192;  ///< edge of an image
 
 /// A translation by whole pixels that leaves a pattern as it is.
 struct Period {
@@ -74,9 +76,9 @@ class Silhouette {
 
     /// After how many pixels an edge and its place in the pixel grid repeat. Nothing where they do
     /// not, and where the coordinates of the copies would round differently: the copies have the
-    /// same bits. Artifact: stair (a, a) and step (L, a), for whole a and L, or multiples of 1/2, 1/4
-    /// or 1/8 px two, four or eight times as far. Straight edge: stair (1, 1), step (L, a) in lowest
-    /// terms.
+    /// same bits. Artifact: stair (a, a) and step (L, a), for whole a and L, or multiples of 1/2,
+    /// 1/4 or 1/8 px two, four or eight times as far. Straight edge: stair (1, 1), step (L, a) in
+    /// lowest terms.
     std::optional<Period> artifactPeriod() const;
     std::optional<Period> straightPeriod() const;
 

@@ -13,7 +13,7 @@ namespace {
 enum class Edge { artifact, straight };
 
 void validate(const StimulusOptions& o) {
-    Silhouette{o.silhouette};
+    Silhouette{o.silhouette};  // throws
     validate(o.kernel);
     validateLitLevel(o.litLevel);
     require(o.windowPx >= 1 && o.windowPx <= kMaxWindowPx, "window", o.windowPx, " px",
@@ -58,7 +58,8 @@ PeriodColumns<Value> emptyPeriod(const std::optional<Period>& period, int window
     return result;
 }
 
-/// Fills the columns with toValue(V). Columns of pixels that are known to be equal are converted once.
+/// Fills the columns with toValue(V). Columns of pixels that are known to be equal are converted
+/// once.
 template <typename Value, typename ToValue>
 PeriodColumns<Value> evaluatePeriod(const StimulusOptions& o, Edge edge, ToValue toValue) {
     Silhouette silhouette(o.silhouette);
@@ -86,8 +87,8 @@ PeriodColumns<Value> evaluatePeriod(const StimulusOptions& o, Edge edge, ToValue
             artifact.evaluate(x, values);
         } else {
             for (std::size_t row = 0; row < rows; ++row)
-                values[row] = straightVisibility(silhouette, o.kernel, x,
-                                                 bottom + static_cast<double>(row));
+                values[row] =
+                    straightVisibility(silhouette, o.kernel, x, bottom + static_cast<double>(row));
         }
         result.columns[c].resize(rows);
         std::transform(values.begin(), values.end(), result.columns[c].begin(), toValue);
@@ -133,7 +134,7 @@ cv::Mat dithered(const cv::Mat& visibility, const StimulusOptions& o, std::uint6
         for (int c = 0; c < codes.cols; ++c) {
             const double uniform = static_cast<double>(rng() >> 11) * 0x1p-53;
             codes.at<std::uint8_t>(row, c) =
-                displayCode(visibility.at<double>(row, c), o.litLevel, o.encoding, uniform);
+                ditheredCode(visibility.at<double>(row, c), o.litLevel, o.encoding, uniform);
         }
     return codes;
 }
@@ -145,16 +146,22 @@ cv::Mat codeImage(const StimulusOptions& options, Edge edge) {
         return oriented(dithered(visibilityImage(options, edge), options, seed), options.roving);
     }
     validate(options);
-    const auto toCode = [&](double v) { return displayCode(v, options.litLevel, options.encoding); };
+    const auto toCode = [&](double v) {
+        return displayCode(v, options.litLevel, options.encoding);
+    };
     const auto period = evaluatePeriod<std::uint8_t>(options, edge, toCode);
     return oriented(copied(period, options.windowPx), options.roving);
 }
 
 }  // namespace
 
-cv::Mat artifactImage(const StimulusOptions& options) { return codeImage(options, Edge::artifact); }
+cv::Mat artifactImage(const StimulusOptions& options) {
+    return codeImage(options, Edge::artifact);
+}
 
-cv::Mat straightImage(const StimulusOptions& options) { return codeImage(options, Edge::straight); }
+cv::Mat straightImage(const StimulusOptions& options) {
+    return codeImage(options, Edge::straight);
+}
 
 cv::Mat artifactVisibilityImage(const StimulusOptions& options) {
     return oriented(visibilityImage(options, Edge::artifact), options.roving);

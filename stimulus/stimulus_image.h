@@ -6,8 +6,8 @@
 //                                  .kernel = {KernelShape::disc, 35}};
 //   cv::Mat artifact = artifactImage(stimulus), straight = straightImage(stimulus);
 //
-// Pixels are the closed form at the pixel's centre (filtered_edge.h), to the last bit: one period is
-// evaluated and copied where the pattern repeats, and roving moves, turns and mirrors the same
+// Pixels are the closed form at the pixel's centre (filtered_edge.h), to the last bit: one period
+// is evaluated and copied where the pattern repeats, and roving moves, turns and mirrors the same
 // values. The origin of the silhouette lies at the corner below and left of the middle pixel (even
 // windows: in the middle). Row 0 is on top.
 #pragma once
@@ -36,14 +36,12 @@ struct Roving {
 struct StimulusOptions {
     SilhouetteOptions silhouette{};
     Kernel kernel{};
-    int windowPx = 600;  ///< edge of the square image, 1..kMaxWindowPx
+    int windowPx = 600;   ///< edge of the square image, 1..kMaxWindowPx
     double litLevel = 1;  ///< share of full white on the lit side, in [0, 1]
     Encoding encoding = Encoding::srgb;
     Roving roving{};
     std::optional<std::uint64_t> ditherSeed{};  ///< random instead of half-up rounding of codes
 };
-
-inline constexpr int kMaxWindowPx = 8192;
 
 /// 8-bit codes, CV_8UC1. Throws std::invalid_argument that names the value and the rule; a kernel
 /// that spans more than 20,000 texels is refused. With dither the two images get different noise.

@@ -21,7 +21,8 @@ TEST(DisplayCode, EndsAreExact) {
 }
 
 TEST(DisplayCode, SrgbDecodesBackToLight) {
-    // The standard's decoding, IEC 61966-2-1. Its rounded constants leave a gap of 3e-8 in the curve.
+    // The standard's decoding, IEC 61966-2-1. Its rounded constants leave a gap of 3e-8 in the
+    // curve.
     for (double v = 0; v <= 1; v += 1.0 / 4096) {
         const double e = encode(v, Encoding::srgb);
         const double light = e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4);
@@ -35,7 +36,8 @@ TEST(DisplayCode, NeverFallsAsVisibilityOrLitLevelRises) {
     for (const Encoding encoding : {Encoding::srgb, Encoding::code}) {
         for (double lit = 0; lit <= 1; lit += 1.0 / 64)
             for (double v = 0; v < 1; v += 1.0 / 2048)
-                ASSERT_LE(displayCode(v, lit, encoding), displayCode(v + 1.0 / 2048, lit, encoding));
+                ASSERT_LE(displayCode(v, lit, encoding),
+                          displayCode(v + 1.0 / 2048, lit, encoding));
         for (double v = 0; v <= 1; v += 1.0 / 64)
             for (double lit = 0; lit < 1; lit += 1.0 / 512)
                 ASSERT_LE(displayCode(v, lit, encoding), displayCode(v, lit + 1.0 / 512, encoding));

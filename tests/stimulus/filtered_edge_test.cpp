@@ -15,7 +15,9 @@ using namespace stimulus;
 
 constexpr std::array kShapes{KernelShape::disc, KernelShape::box, KernelShape::gaussian};
 
-SilhouetteOptions stair(double a) { return {.pattern = Pattern::stair, .artifactPx = a}; }
+SilhouetteOptions stair(double a) {
+    return {.pattern = Pattern::stair, .artifactPx = a};
+}
 SilhouetteOptions step(double a, double spacing) {
     return {.pattern = Pattern::step, .artifactPx = a, .riserSpacingPx = spacing};
 }
@@ -28,7 +30,9 @@ const std::vector<SilhouetteOptions> kSilhouettes{
     line(5.5, 8), line(22.5, 8), line(36, 3.7), line(40.5, 20), line(44.9, 10)};
 
 /// Radii from almost a hard edge through r < a to r >> a.
-std::vector<double> radiiFor(double a) { return {0.05 * a, 0.3 * a, a, 3.47 * a, 12.3 * a}; }
+std::vector<double> radiiFor(double a) {
+    return {0.05 * a, 0.3 * a, a, 3.47 * a, 12.3 * a};
+}
 
 /// Places in and around the penumbra, most of them neither on pixel centres nor on edges.
 std::vector<std::pair<double, double>> places(const Silhouette& s, double radius, unsigned seed) {
@@ -66,8 +70,8 @@ TEST(FilteredEdge, ClosedFormsAgreeWithNumericalIntegration) {
                 }
     }
     RecordProperty("worst_error", std::to_string(worst));
-    // 1e-6 is what is asked for. What is left is the integration's own error, where it misses that an
-    // edge just cuts the disc's rim.
+    // 1e-6 is what is asked for. What is left is the integration's own error, where it misses that
+    // an edge just cuts the disc's rim.
     EXPECT_LT(worst, 1e-7);
 }
 
@@ -77,11 +81,11 @@ TEST(FilteredEdge, WithoutFilterIsTheHardEdgeAndOneHalfOnIt) {
         const Silhouette s({.pattern = Pattern::stair, .artifactPx = 2, .verticalPhasePx = 0});
         EXPECT_EQ(artifactVisibility(s, hard, 1, 0.01), 1);
         EXPECT_EQ(artifactVisibility(s, hard, 1, -0.01), 0);
-        EXPECT_EQ(artifactVisibility(s, hard, 1, 0), 0.5);     // on a tread
-        EXPECT_EQ(artifactVisibility(s, hard, 2, 1), 0.5);     // on a riser
-        EXPECT_EQ(artifactVisibility(s, hard, 2, 2), 0.75);    // on an upper corner
-        EXPECT_EQ(artifactVisibility(s, hard, 2, 0), 0.25);    // in a lower corner
-        EXPECT_EQ(straightVisibility(s, hard, 3, 2), 0.5);     // on the line y = x - 1
+        EXPECT_EQ(artifactVisibility(s, hard, 1, 0), 0.5);   // on a tread
+        EXPECT_EQ(artifactVisibility(s, hard, 2, 1), 0.5);   // on a riser
+        EXPECT_EQ(artifactVisibility(s, hard, 2, 2), 0.75);  // on an upper corner
+        EXPECT_EQ(artifactVisibility(s, hard, 2, 0), 0.25);  // in a lower corner
+        EXPECT_EQ(straightVisibility(s, hard, 3, 2), 0.5);   // on the line y = x - 1
         EXPECT_EQ(straightVisibility(s, hard, 3, 2.01), 1);
         EXPECT_EQ(straightVisibility(s, hard, 3, 1.99), 0);
     }
@@ -200,8 +204,8 @@ TEST(FilteredEdge, WholeColumnsGiveTheSameBitsAsSinglePoints) {
                 for (double x = -70.5; x < 70; x += 3) {
                     columns.evaluate(x, values);
                     for (std::size_t j = 0; j < values.size(); j += 2)
-                        ASSERT_EQ(values[j], artifactVisibility(s, kernel, x,
-                                                                bottom + static_cast<double>(j)))
+                        ASSERT_EQ(values[j],
+                                  artifactVisibility(s, kernel, x, bottom + static_cast<double>(j)))
                             << toText(shape) << " r " << radius << " at " << x << " row " << j;
                 }
             }

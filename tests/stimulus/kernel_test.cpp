@@ -70,15 +70,16 @@ TEST(Kernel, HalfPlaneOfTheBoxIsTheFourTermFormula) {
             const double formula =
                 (f(d + p + q) - f(d + q - p) - f(d - q + p) + f(d - p - q)) / (4 * p * q);
             // The formula itself loses up to 1e-16 d^2 / (4 p q) to cancellation: 1e-13 here.
-            EXPECT_NEAR(halfPlane(KernelShape::box, d, q, p), formula, 1e-12) << degrees << " " << d;
+            EXPECT_NEAR(halfPlane(KernelShape::box, d, q, p), formula, 1e-12)
+                << degrees << " " << d;
         }
 }
 
 TEST(Kernel, HalfPlaneOfTheBoxStaysExactAsTheEdgeBecomesLevel) {
     for (const double angle : {1e-3, 1e-6, 1e-9, 1e-15, 1e-200, 0.0})
         for (const double d : {-0.9, -0.2, 0.0, 0.5, 0.9})
-            EXPECT_NEAR(halfPlane(KernelShape::box, d, std::cos(angle), std::sin(angle)), (d + 1) / 2,
-                        angle * angle + 1e-15);
+            EXPECT_NEAR(halfPlane(KernelShape::box, d, std::cos(angle), std::sin(angle)),
+                        (d + 1) / 2, angle * angle + 1e-15);
 }
 
 TEST(Kernel, MassesRiseWithEveryArgument) {
@@ -99,8 +100,11 @@ TEST(Kernel, NamesAreReadBack) {
 TEST(Kernel, RefusesARadiusThatIsNoLength) {
     for (const double radius : {-1.0, -1e-9, std::nan(""), std::numeric_limits<double>::infinity(),
                                 -std::numeric_limits<double>::infinity(), 65537.0})
-        EXPECT_THAT([&] { validate(Kernel{KernelShape::disc, radius}); },
-                    ThrowsMessage<std::invalid_argument>(HasSubstr("filter radius is ")));
+        EXPECT_THAT(
+            [&] {
+                validate(Kernel{KernelShape::disc, radius});
+            },
+            ThrowsMessage<std::invalid_argument>(HasSubstr("filter radius is ")));
     EXPECT_NO_THROW(validate(Kernel{KernelShape::disc, 0}));
 }
 

@@ -9,9 +9,9 @@
 namespace numerical {
 namespace {
 
+using std::numbers::pi;
 using stimulus::KernelShape;
 using stimulus::Pattern;
-using std::numbers::pi;
 
 constexpr int kNodes = 24;
 
@@ -45,7 +45,8 @@ double integral(double low, double high, Function f) {
     static const Rule rule = gaussLegendre();
     const double middle = (low + high) / 2, half = (high - low) / 2;
     double sum = 0;
-    for (std::size_t i = 0; i < kNodes; ++i) sum += rule.weight[i] * f(middle + half * rule.node[i]);
+    for (std::size_t i = 0; i < kNodes; ++i)
+        sum += rule.weight[i] * f(middle + half * rule.node[i]);
     return half * sum;
 }
 
@@ -57,7 +58,9 @@ double integral(std::vector<double> cuts, Function f) {
     return sum;
 }
 
-double standardNormal(double t) { return std::exp(-t * t / 2) / std::sqrt(2 * pi); }
+double standardNormal(double t) {
+    return std::exp(-t * t / 2) / std::sqrt(2 * pi);
+}
 
 /// Mass of the standard normal above t, by integration of its density.
 double normalAbove(double t) {
@@ -68,7 +71,9 @@ double normalAbove(double t) {
 }
 
 /// Where a kernel begins and ends along x, radii; the Gaussian's sigma is 1/2.
-double extent(KernelShape shape) { return shape == KernelShape::gaussian ? 5 : 1; }
+double extent(KernelShape shape) {
+    return shape == KernelShape::gaussian ? 5 : 1;
+}
 
 /// Density of column z of the kernel, and the share of that column above w.
 double columnAbove(KernelShape shape, double z, double w) {
@@ -89,14 +94,16 @@ void addCrossings(KernelShape shape, double low, double high,
     for (int i = 0; i < pieces; ++i) {
         double a = low + (high - low) * i / pieces, b = low + (high - low) * (i + 1) / pieces;
         if (outside(a) * outside(b) > 0) continue;
-        for (int k = 0; k < 60; ++k) ((outside(a) * outside((a + b) / 2) <= 0) ? b : a) = (a + b) / 2;
+        for (int k = 0; k < 60; ++k)
+            ((outside(a) * outside((a + b) / 2) <= 0) ? b : a) = (a + b) / 2;
         cuts.push_back((a + b) / 2);
     }
 }
 
 /// Integral over the kernel's columns between two places. For the disc z = sin(angle) takes the
 /// square root out of the columns' lengths.
-double massAbove(KernelShape shape, double low, double high, const std::function<double(double)>& w) {
+double massAbove(KernelShape shape, double low, double high,
+                 const std::function<double(double)>& w) {
     std::vector<double> cuts{low, high};
     addCrossings(shape, low, high, w, cuts);
     if (shape == KernelShape::disc) {

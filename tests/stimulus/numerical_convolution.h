@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The filtered edges by numerical integration, sharing no formula with stimulus/: the silhouettes and
-// the kernels' densities are written out again from their definitions, and every mass is a
+// The filtered edges by numerical integration, sharing no formula with stimulus/: the silhouettes
+// and the kernels' densities are written out again from their definitions, and every mass is a
 // Gauss-Legendre sum. Integrands are cut where they bend, so the rule converges to about 1e-12.
 #pragma once
 

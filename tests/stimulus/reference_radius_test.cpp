@@ -20,7 +20,9 @@ using testing::ThrowsMessage;
 
 constexpr std::array kShapes{KernelShape::disc, KernelShape::box, KernelShape::gaussian};
 
-SilhouetteOptions stair(double a) { return {.pattern = Pattern::stair, .artifactPx = a}; }
+SilhouetteOptions stair(double a) {
+    return {.pattern = Pattern::stair, .artifactPx = a};
+}
 SilhouetteOptions step(double a, double spacing) {
     return {.pattern = Pattern::step, .artifactPx = a, .riserSpacingPx = spacing};
 }
@@ -41,7 +43,8 @@ std::optional<double> byDefinition(const ReferenceOptions& o, ReferenceCriterion
             o.silhouette.pattern == Pattern::line ? o.windowPx
             : o.silhouette.pattern == Pattern::step
                 ? static_cast<int>(o.silhouette.riserSpacingPx)
-                : static_cast<int>(2 * o.silhouette.artifactPx);  // two periods: sizes of x.5 px too
+                : static_cast<int>(2 *
+                                   o.silhouette.artifactPx);  // two periods: sizes of x.5 px too
         const cv::Rect period(image.windowPx / 2 - columns / 2, 0, columns, image.windowPx);
         cv::Mat difference;
         cv::absdiff(artifactImage(image)(period), straightImage(image)(period), difference);
@@ -61,8 +64,8 @@ TEST(ReferenceRadius, IsThatOfTestingEveryPixelAtEveryRadius) {
         for (const SilhouetteOptions& silhouette :
              {stair(3), stair(2.5), step(2, 16), step(3, 24),
               SilhouetteOptions{.pattern = Pattern::line, .artifactPx = 3, .angleDeg = 22.5}})
-            cases.push_back({.silhouette = silhouette, .kernel = shape, .windowPx = 24,
-                             .maxRadiusPx = 20});
+            cases.push_back(
+                {.silhouette = silhouette, .kernel = shape, .windowPx = 24, .maxRadiusPx = 20});
     for (const ReferenceOptions& o : std::vector(cases)) {
         auto darker = o, light = o;
         darker.litLevel = 0.5;
@@ -77,8 +80,8 @@ TEST(ReferenceRadius, IsThatOfTestingEveryPixelAtEveryRadius) {
             const auto expected = byDefinition(o, criterion);
             reached += expected.has_value();
             EXPECT_EQ(referenceRadius(o, criterion), expected)
-                << toText(o.kernel) << " pattern " << static_cast<int>(o.silhouette.pattern) << " a "
-                << o.silhouette.artifactPx << " lit " << o.litLevel << " criterion "
+                << toText(o.kernel) << " pattern " << static_cast<int>(o.silhouette.pattern)
+                << " a " << o.silhouette.artifactPx << " lit " << o.litLevel << " criterion "
                 << static_cast<int>(criterion);
         }
     EXPECT_GT(reached, 60);  // the cases are not all beyond the bound
@@ -98,8 +101,9 @@ TEST(ReferenceRadius, IdenticalIsThatOfTestingEveryPixelAtEveryRadius) {
     EXPECT_GT(reached, 0);
 }
 
-// The box in closed form, over all places: D = a L / (32 r^2) for r >= L/4, (a / 4r)(1 - 2r/L) below,
-// with L = a for the stair. A pixel grid may miss the place of the maximum by a fraction of a pixel.
+// The box in closed form, over all places: D = a L / (32 r^2) for r >= L/4, (a / 4r)(1 - 2r/L)
+// below, with L = a for the stair. A pixel grid may miss the place of the maximum by a fraction of
+// a pixel.
 double exactBoxDifference(double a, double spacing, double r) {
     return r >= spacing / 4 ? a * spacing / (32 * r * r) : a / (4 * r) * (1 - 2 * r / spacing);
 }
@@ -110,7 +114,8 @@ TEST(ReferenceRadius, BoxFollowsItsExactFormula) {
           std::pair(step(10, 80), 80.0), std::pair(step(30, 240), 240.0)})
         for (const double share : {0.1, 0.2, 0.3, 0.6, 1.0, 2.0}) {
             const double r = share * spacing;
-            if (r < silhouette.artifactPx) continue;  // below, pixels are too coarse to meet the top
+            if (r < silhouette.artifactPx)
+                continue;  // below, pixels are too coarse to meet the top
             const double exact = exactBoxDifference(silhouette.artifactPx, spacing, r);
             const double d =
                 largestDifference({.silhouette = silhouette, .kernel = KernelShape::box}, r);
@@ -122,8 +127,8 @@ TEST(ReferenceRadius, BoxFollowsItsExactFormula) {
 }
 
 TEST(ReferenceRadius, BoxAnchorsOfTheMethods) {
-    // R1/2 = sqrt(W a L / 16): 310 px at a = 10 and 536 px at a = 30 for the step across 600 px. The
-    // 0.75 px allow for the grid of radii and for pixels beside the maximum.
+    // R1/2 = sqrt(W a L / 16): 310 px at a = 10 and 536 px at a = 30 for the step across 600 px.
+    // The 0.75 px allow for the grid of radii and for pixels beside the maximum.
     const auto radius = [](const SilhouetteOptions& s, double lit) {
         return referenceRadius({.silhouette = s, .kernel = KernelShape::box, .litLevel = lit},
                                ReferenceCriterion::halfCode);
@@ -175,8 +180,8 @@ TEST(ReferenceRadius, TheDiscWigglesSoTheFirstRadiusThatWorksIsNotTheAnswer) {
 
 TEST(ReferenceRadius, NothingToSeeNeedsNoFilter) {
     const ReferenceOptions dark{.silhouette = stair(10), .litLevel = 0};
-    for (const auto criterion : {ReferenceCriterion::halfCode, ReferenceCriterion::oneCode,
-                                 ReferenceCriterion::identical})
+    for (const auto criterion :
+         {ReferenceCriterion::halfCode, ReferenceCriterion::oneCode, ReferenceCriterion::identical})
         EXPECT_EQ(referenceRadius(dark, criterion), 0);
 }
 
@@ -199,8 +204,8 @@ TEST(ReferenceRadius, RefusesBadInputByNameValueAndRule) {
     EXPECT_THROW(largestDifference({}, -1), std::invalid_argument);
 }
 
-// The proof's premise: the difference never changes faster than its bound, along each coordinate, by
-// finite differences at random places, mostly near the kernel's ends where the disc bends most.
+// The proof's premise: the difference never changes faster than its bound, along each coordinate,
+// by finite differences at random places, mostly near the kernel's ends where the disc bends most.
 TEST(DifferenceBound, HoldsInEveryDirection) {
     std::mt19937_64 rng(11);
     const auto uniform = [&] { return static_cast<double>(rng() >> 11) * 0x1p-53; };
@@ -215,20 +220,22 @@ TEST(DifferenceBound, HoldsInEveryDirection) {
                 const double cosAngle = s.cosAngle(), sinAngle = s.sinAngle();
                 const double r = options.artifactPx * (0.5 + 30 * uniform() * uniform());
                 const double end = shape == KernelShape::gaussian ? 2 : 1.4;
-                const double delta = i % 2 ? (2 * uniform() - 1) * end
-                                           : (uniform() < 0.5 ? -1 : 1) * (1 + 0.1 * (uniform() - 0.5));
+                const double delta =
+                    i % 2 ? (2 * uniform() - 1) * end
+                          : (uniform() < 0.5 ? -1 : 1) * (1 + 0.1 * (uniform() - 0.5));
                 const double along = (uniform() - 0.5) * 4 * s.texelWidth();
                 const auto difference = [&](double place, double scaled, double radius) {
                     const double d = scaled * radius;
                     const double x = place * cosAngle - d * sinAngle;
                     const double y = s.intercept() + place * sinAngle + d * cosAngle;
                     const Kernel kernel{shape, radius};
-                    return artifactVisibility(s, kernel, x, y) - straightVisibility(s, kernel, x, y);
+                    return artifactVisibility(s, kernel, x, y) -
+                           straightVisibility(s, kernel, x, y);
                 };
                 const double stepPx = 0.01, spread = stepPx / r;
-                const auto bound =
-                    differenceBound(shape, delta, spread,
-                                    s.maxDeviationPx() * cosAngle / (r - stepPx), cosAngle, sinAngle);
+                const auto bound = differenceBound(shape, delta, spread,
+                                                   s.maxDeviationPx() * cosAngle / (r - stepPx),
+                                                   cosAngle, sinAngle);
                 const double here = difference(along, delta, r);
                 const double largest = std::abs(here) + 2 * stepPx / r;
                 const double changes[] = {std::abs(difference(along + stepPx, delta, r) - here),

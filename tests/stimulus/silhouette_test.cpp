@@ -19,7 +19,9 @@ SilhouetteOptions line(double angleDeg, double artifactPx = 10) {
     return {.pattern = Pattern::line, .artifactPx = artifactPx, .angleDeg = angleDeg};
 }
 
-double angleOfSlope(double slope) { return std::atan(slope) * 180 / std::numbers::pi; }
+double angleOfSlope(double slope) {
+    return std::atan(slope) * 180 / std::numbers::pi;
+}
 
 /// Mean of (artifact - true silhouette) over the texel columns from `first`, px: zero when the line
 /// bisects the steps.
@@ -67,8 +69,8 @@ TEST(Silhouette, LineBisectsItsStepsAtEverySlope) {
 }
 
 TEST(Silhouette, AnglesWithThreeDecimalsCountAsTheirFraction) {
-    // atan(1/3) = 18.43495: without the shift every third column would be off by a/6 = 1.7 px on the
-    // average, upwards on one side of the window and downwards on the other.
+    // atan(1/3) = 18.43495: without the shift every third column would be off by a/6 = 1.7 px on
+    // the average, upwards on one side of the window and downwards on the other.
     const Silhouette s(line(18.435));
     EXPECT_NEAR(meanOffset(s, 0, 60), 0, 0.01);
     EXPECT_NEAR(meanOffset(s, -60, 60), 0, 0.01);

@@ -29,7 +29,8 @@ SilhouetteOptions line(double angleDeg, double artifactPx = 10) {
     return {.pattern = Pattern::line, .artifactPx = artifactPx, .angleDeg = angleDeg};
 }
 
-#define PAIR(name, ...) BENCHMARK_CAPTURE(makePairs, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)
+#define PAIR(name, ...) \
+    BENCHMARK_CAPTURE(makePairs, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)
 PAIR(stair_disc, options(kStair, KernelShape::disc));
 PAIR(stair_disc_code, options(kStair, KernelShape::disc, Encoding::code));
 PAIR(stair_box, options(kStair, KernelShape::box));

@@ -24,8 +24,12 @@ bool identical(const cv::Mat& a, const cv::Mat& b) {
 }
 
 /// Centre of a pixel of an even or odd window, y up: the header's rule.
-double xOf(int column, int window) { return column - window / 2 + 0.5; }
-double yOf(int row, int window) { return window - 1 - row - window / 2 + 0.5; }
+double xOf(int column, int window) {
+    return column - window / 2 + 0.5;
+}
+double yOf(int row, int window) {
+    return window - 1 - row - window / 2 + 0.5;
+}
 
 StimulusOptions options(const SilhouetteOptions& silhouette, const Kernel& kernel,
                         int window = 120) {
@@ -73,7 +77,8 @@ TEST(StimulusImage, CodesAreThoseOfTheVisibility) {
                 auto stimulus = options(silhouette, {KernelShape::disc, 30});
                 stimulus.encoding = encoding;
                 stimulus.litLevel = lit;
-                const cv::Mat codes = artifactImage(stimulus), v = artifactVisibilityImage(stimulus);
+                const cv::Mat codes = artifactImage(stimulus),
+                              v = artifactVisibilityImage(stimulus);
                 ASSERT_EQ(codes.type(), CV_8UC1);
                 for (int row = 0; row < codes.rows; ++row)
                     for (int column = 0; column < codes.cols; ++column)
@@ -89,7 +94,8 @@ TEST(StimulusImage, LitSideIsAboveAndTheEdgeIsInTheMiddle) {
         EXPECT_EQ(image.at<std::uint8_t>(119, 60), 0);
     }
     const auto hard = artifactImage(options(kSilhouettes[3], {KernelShape::disc, 0}));
-    // The step's riser lies between columns 59 and 60; shadow up to -5 on its left, +5 on its right.
+    // The step's riser lies between columns 59 and 60; shadow up to -5 on its left, +5 on its
+    // right.
     for (int row = 0; row < 120; ++row) {
         EXPECT_EQ(hard.at<std::uint8_t>(row, 59), row < 65 ? 255 : 0);
         EXPECT_EQ(hard.at<std::uint8_t>(row, 60), row < 55 ? 255 : 0);
@@ -103,8 +109,7 @@ TEST(StimulusImage, RovingMovesTurnsAndMirrorsTheSameValues) {
         for (int shift : {-5, 3})
             for (const bool mirror : {false, true})
                 for (int turns = 0; turns < 4; ++turns) {
-                    stimulus.roving = {
-                        .shiftPx = shift, .mirror = mirror, .quarterTurns = turns};
+                    stimulus.roving = {.shiftPx = shift, .mirror = mirror, .quarterTurns = turns};
                     const cv::Mat roved = artifactVisibilityImage(stimulus);
                     for (int row = 10; row < 110; ++row)
                         for (int column = 0; column < 120; ++column) {
@@ -151,7 +156,8 @@ TEST(StimulusImage, DitherKeepsTheMeanAndChangesNoFlatPart) {
             sum += error;
             ++count;
         }
-    // Each error has variance <= 1/4, so the mean's sd is <= .5 / 120: 5 sd, wrong once in a million.
+    // Each error has variance <= 1/4, so the mean's sd is <= .5 / 120: 5 sd, wrong once in a
+    // million.
     EXPECT_NEAR(sum / count, 0, 5 * 0.5 / std::sqrt(count));
     EXPECT_TRUE(identical(codes, artifactImage(stimulus)));  // same seed, same image
     stimulus.ditherSeed = 8;
@@ -176,8 +182,8 @@ TEST(StimulusImage, SmallestWindowsWork) {
 }
 
 void expectRefused(const StimulusOptions& stimulus, const char* sentence) {
-    for (const auto image : {artifactImage, straightImage, artifactVisibilityImage,
-                             straightVisibilityImage})
+    for (const auto image :
+         {artifactImage, straightImage, artifactVisibilityImage, straightVisibilityImage})
         EXPECT_THAT([&] { image(stimulus); },
                     ThrowsMessage<std::invalid_argument>(HasSubstr(sentence)));
 }
