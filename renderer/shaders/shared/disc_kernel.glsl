@@ -8,8 +8,8 @@
 // off by at most .012; a half-plane under the whole kernel by .0006 from 3.47 texels on, .0012 from 2.5 on, and .004,
 // one 8-bit level, below. The exact area needs asin, which drivers round to about 2^-11.
 
-// Texel widths. Small discs need finer rows, and have few texels.
-const real kFineRadius = real(2.5);
+// Rows of the midpoint rule. Small discs need more of them, and have few texels.
+SHARED_FUNCTION int discRows(real radius) { return radius < real(1.25) ? 24 : (radius < real(2.5) ? 8 : 4); }
 
 // For the four texels with the given centres relative to the disc's, in texels; radius in texels.
 SHARED_FUNCTION real4 discCoverage4(real4 x, real4 y, real radius) {
@@ -17,7 +17,7 @@ SHARED_FUNCTION real4 discCoverage4(real4 x, real4 y, real radius) {
     real4 smaller = min(abs(x), abs(y));
     real4 low = max(smaller - real4(0.5), real4(-radius));
     real4 high = min(smaller + real4(0.5), real4(radius));
-    int rows = radius < kFineRadius ? 24 : 4;
+    int rows = discRows(radius);
     real4 rowHeight = max(high - low, real4(0.0)) / real(rows);
     real4 length4 = real4(0.0);
     for (int k = 0; k < rows; ++k) {
