@@ -10,7 +10,7 @@
 namespace study_app {
 namespace {
 
-constexpr float kFooterPx = 84, kMarginPx = 32;
+constexpr float kFooterPx = 112, kMarginPx = 32;
 const ImVec4 kWarningColor{0.95f, 0.72f, 0.36f, 1};
 const ImVec4 kAccent{0.25f, 0.46f, 0.72f, 1}, kAccentHovered{0.31f, 0.54f, 0.81f, 1};
 
@@ -123,7 +123,7 @@ void drawProgress(const Page& page, const SessionRunner& runner) {
     const float share = session.total() == 0 ? 1
                                              : static_cast<float>(session.answered()) /
                                                    static_cast<float>(session.total());
-    ImDrawList& draw = *ImGui::GetForegroundDrawList();
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const float thickness = page.px(4);
     draw.AddRectFilled({x, y}, {x + width, y + thickness}, IM_COL32(90, 90, 92, 255),
                        thickness / 2);

@@ -156,7 +156,8 @@ void drawPanel(AppState& state, const Page& page) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {page.px(14), page.px(12)});
     ImGui::PushFont(page.window.fonts().small);
     if (ImGui::Begin("For the experimenter (F2 hides it)", nullptr,
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
+                         ImGuiWindowFlags_NoNav)) {
         if (ImGui::BeginTabBar("tabs")) {
             if (ImGui::BeginTabItem("Staircases")) {
                 drawStaircases(page, state.runner->session());

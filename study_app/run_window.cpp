@@ -22,6 +22,7 @@
 #include "study_app/design_file.h"
 #include "study_app/display_file.h"
 #include "study_app/page_parts.h"
+#include "study_app/robot_observer.h"
 #include "study_app/screens.h"
 #include "study_app/stimulus_painter.h"
 
@@ -104,6 +105,7 @@ class StudyWindow {
     void leaveCalibration();
     void startSession(const SetupForm& form);
     void rerun(double now);
+    void actAsRobot(double now);
     void log(const std::string& line);
     void logRows();
     bool answering() const;
@@ -119,6 +121,12 @@ class StudyWindow {
     std::set<std::string> screenshotsTaken_;
     std::ofstream eventLog_;
     std::size_t rowsLogged_ = 0;
+    struct RobotPress {
+        int key = 0;
+        double due = 0;
+    };
+    std::optional<RobotPress> robotPress_;
+    std::mt19937_64 robotCoin_{1};
 };
 
 StudyWindow::StudyWindow(const WindowRun& run) : run_(run), window_(run.window) {
@@ -153,6 +161,7 @@ void StudyWindow::run() {
         const double before = Window::now();
         window_.waitForEvents(framesWanted_ > 0 ? 0 : idleSeconds(before));
         const double now = Window::now();
+        if (run_.robot) actAsRobot(now);
         handleInput(now);
         tick(now);
         logRows();
@@ -161,6 +170,16 @@ void StudyWindow::run() {
         returnPressed_ = false;
     }
     if (run_.printTiming && state_.runner) printTiming(state_.runner->latencies());
+}
+
+/// Presses what the robot has decided on, and Return wherever a person would read first.
+void StudyWindow::actAsRobot(double now) {
+    if (robotPress_ && now >= robotPress_->due) {
+        window_.input().presses.push_back({.key = robotPress_->key});
+        robotPress_.reset();
+    } else if (!answering() && framesWanted_ == 0) {
+        window_.input().presses.push_back({.key = GLFW_KEY_ENTER});
+    }
 }
 
 void StudyWindow::log(const std::string& line) {
@@ -178,6 +197,8 @@ void StudyWindow::logRows() {
 
 double StudyWindow::idleSeconds(double now) const {
     double seconds = std::numeric_limits<double>::infinity();
+    if (robotPress_) return std::max(0.0, robotPress_->due - now);
+    if (run_.robot && !answering()) return kCountdownS;
     if (answering()) {
         if (state_.runner->stimulusDue(now)) return 0;
         seconds = state_.runner->secondsUntilChange(now);
@@ -332,12 +353,15 @@ void StudyWindow::showFrame(const std::vector<PlacedImage>& images, bool newStim
     }
     window_.renderInterface();
     const bool verify = newStimulus && !state_.panelShown && (run_.verifyPixels || !verified_);
-    if (verify || !run_.screenshots.empty()) {
+    const bool robotLooks = run_.robot && newStimulus;
+    cv::Mat frame;  // for the robot
+    if (verify || robotLooks || !run_.screenshots.empty()) {
         const cv::Mat bgr = window_.readPixels();
         if (verify) {
             for (const PlacedImage& image : images) requireCodes(bgr, image);
             verified_ = true;
         }
+        if (robotLooks) frame = bgr;
         if (!run_.screenshots.empty() && (framesWanted_ == 0 || newStimulus)) saveScreenshot(bgr);
     }
     const double shown = window_.endFrame();
@@ -346,6 +370,11 @@ void StudyWindow::showFrame(const std::vector<PlacedImage>& images, bool newStim
     window_.waitForEvents(0);
     window_.input().presses.clear();
     state_.runner->shown(shown);
+    if (robotLooks) {
+        const Side side = robotAnswer(frame, robotCoin_);
+        robotPress_ = {.key = side == Side::left ? GLFW_KEY_LEFT : GLFW_KEY_RIGHT,
+                       .due = shown + state_.presentation.tooFastS};
+    }
     if (!eventLog_.is_open()) return;
     const records::Trial trial = state_.runner->trial();
     const bool practice = state_.runner->stage() == SessionRunner::Stage::practice;
@@ -538,6 +567,7 @@ void StudyWindow::loadCalibration() {
     c.warnings = displayWarnings(window_.displayState());
     c.profile = window_.monitor();
     const auto known = findDisplay(readDisplays(run_.displays), c.profile);
+    c.cardWidthPx *= window_.uiScale();
     if (!known) return;
     c.profile = *known;
     c.known = true;

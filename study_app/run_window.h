@@ -27,6 +27,7 @@ struct WindowRun {
     /// For checking a set-up and for tests:
     std::filesystem::path screenshots{};  ///< a PNG of every screen, once each, goes there
     bool verifyPixels = false;            ///< read back every stimulus, not only the first
+    bool robot = false;                   ///< robot_observer.h sits in front of it
     bool printTiming = false;
     /// A line for each screen ("screen trials"), stimulus ("stimulus 12 left") and row ("row 12
     /// ok"), flushed at once: for scripts that press keys.

@@ -47,7 +47,7 @@ void drawCross(const Page& page) {
 void drawLine(const Page& page, const std::string& text, float y, ImU32 color, ImFont* font) {
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6f, 0, text.c_str());
     const float x = std::round((static_cast<float>(page.window.widthPx()) - size.x) / 2);
-    ImGui::GetForegroundDrawList()->AddText(font, font->FontSize, {x, std::round(y)}, color,
+    ImGui::GetBackgroundDrawList()->AddText(font, font->FontSize, {x, std::round(y)}, color,
                                             text.c_str());
 }
 

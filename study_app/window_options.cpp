@@ -32,6 +32,7 @@ std::vector<std::string> addWindowOptions(CLI::App& app, WindowArguments& a) {
         app.add_option("--screenshots", a.screenshots, "Folder for a picture of every screen"),
         app.add_flag("--verify-pixels", a.verifyPixels,
                      "Read back every stimulus and compare its codes, not only the first"),
+        app.add_flag("--robot", a.robot, "A robot observer answers, by the pixels it is shown"),
         app.add_option("--event-log", a.eventLog,
                        "File that gets a line for every screen, stimulus and row"),
         app.add_flag("--timing", a.timing,
@@ -62,6 +63,7 @@ void apply(const WindowArguments& a, WindowRun& run) {
     run.startAtOnce = a.start;
     run.verifyPixels = a.verifyPixels;
     run.eventLog = a.eventLog;
+    run.robot = a.robot;
     run.printTiming = a.timing;
     run.window.fullscreen = a.fullscreen;
     run.window.uiScale = a.uiScale;

@@ -18,7 +18,7 @@ struct WindowArguments {
         eventLog;
     std::optional<double> uiScale;
     std::vector<int> size;
-    bool start = false, fullscreen = false, verifyPixels = false, timing = false;
+    bool start = false, fullscreen = false, verifyPixels = false, robot = false, timing = false;
 };
 
 /// Adds the options in a group of their own and returns their names, for a mode that refuses them.
