@@ -7,6 +7,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -23,21 +25,23 @@ inline constexpr std::int32_t kLargestLevel = kLevels.back();
 
 /// Smallest level that is at least `need`; absent above kLargestLevel.
 constexpr std::optional<std::int32_t> levelAtLeast(std::int64_t need, LevelRatio ratio) noexcept {
-    const std::size_t step = ratio == LevelRatio::two ? 2 : 1;
-    for (std::size_t i = 0; i < kLevels.size(); i += step) {
-        if (kLevels[i] >= need) return kLevels[i];
-    }
-    return {};
+    if (need <= kSmallestLevel) return kSmallestLevel;
+    if (need > kLargestLevel) return {};
+    // 2^octave is the power of two that suffices, at 2 (octave - 4) in the table.
+    const int octave = 64 - std::countl_zero(static_cast<std::uint64_t>(need - 1));
+    const auto above = static_cast<std::size_t>(2 * (octave - 4));
+    const bool between = ratio == LevelRatio::sqrtTwo && kLevels[above - 1] >= need;
+    return kLevels[between ? above - 1 : above];
 }
 
 /// Largest level that is at most `limit`; absent below kSmallestLevel.
 constexpr std::optional<std::int32_t> levelAtMost(std::int64_t limit, LevelRatio ratio) noexcept {
-    const std::size_t step = ratio == LevelRatio::two ? 2 : 1;
-    std::optional<std::int32_t> result;
-    for (std::size_t i = 0; i < kLevels.size() && kLevels[i] <= limit; i += step) {
-        result = kLevels[i];
-    }
-    return result;
+    if (limit < kSmallestLevel) return {};
+    if (limit >= kLargestLevel) return kLargestLevel;
+    const int octave = 63 - std::countl_zero(static_cast<std::uint64_t>(limit));
+    const auto below = static_cast<std::size_t>(2 * (octave - 4));
+    const bool between = ratio == LevelRatio::sqrtTwo && kLevels[below + 1] <= limit;
+    return kLevels[between ? below + 1 : below];
 }
 
 }  // namespace resolution_controller

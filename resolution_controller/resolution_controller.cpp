@@ -2,6 +2,7 @@
 #include "resolution_controller/resolution_controller.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,28 +14,34 @@ namespace {
 
 constexpr std::int32_t kLargestNeed = DemandHistogram::upperEdge(DemandHistogram::kBins - 1);
 
-/// Upper edge of the bin in which the percentile lies. The histogram is not empty.
-std::int32_t needOf(const DemandHistogram& histogram, double percentile) noexcept {
+constexpr auto kUpperEdges = [] {
+    std::array<std::int32_t, DemandHistogram::kBins> edges{};
+    for (std::size_t b = 0; b < edges.size(); ++b) edges[b] = DemandHistogram::upperEdge(b);
+    return edges;
+}();
+
+/// Upper edge of the bin in which the percentile lies. `total` is above 0.
+std::int32_t needOf(const DemandHistogram& histogram, std::uint64_t total,
+                    double percentile) noexcept {
     constexpr std::uint64_t kMillion = 1'000'000;
     const auto share = static_cast<std::uint64_t>(std::llround(percentile * kMillion));
-    const std::uint64_t total = histogram.total();
     const std::uint64_t rank =
         std::max<std::uint64_t>(1, (total * share + kMillion - 1) / kMillion);
-    std::uint64_t upToBin = 0;
-    for (std::size_t b = 0; b < DemandHistogram::kBins; ++b) {
-        upToBin += histogram.counts[b];
-        if (upToBin >= rank) return DemandHistogram::upperEdge(b);
-    }
-    return kLargestNeed;
+    // From above: the bin up to which all but total - rank samples lie.
+    std::uint64_t above = 0;
+    std::size_t b = DemandHistogram::kBins - 1;
+    while (b > 0 && above + histogram.counts[b] <= total - rank) above += histogram.counts[b--];
+    return kUpperEdges[b];
 }
 
 /// Share of the samples in bins that reach beyond `size`.
-double shareAbove(const DemandHistogram& histogram, std::int32_t size) noexcept {
+double shareAbove(const DemandHistogram& histogram, std::uint64_t total,
+                  std::int32_t size) noexcept {
     std::uint64_t above = 0;
-    for (std::size_t b = 0; b < DemandHistogram::kBins; ++b) {
-        if (DemandHistogram::upperEdge(b) > size) above += histogram.counts[b];
+    for (std::size_t b = DemandHistogram::kBins; b > 0 && kUpperEdges[b - 1] > size; --b) {
+        above += histogram.counts[b - 1];
     }
-    return static_cast<double>(above) / static_cast<double>(histogram.total());
+    return static_cast<double>(above) / static_cast<double>(total);
 }
 
 std::int32_t largestSize(const Settings& s) noexcept {
@@ -295,7 +302,7 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
 }
 
 Decision ResolutionController::decide(double texels, const DemandHistogram* histogram,
-                                      const Frame& frame) noexcept {
+                                      std::uint64_t total, const Frame& frame) noexcept {
     const Limits allowed = limits(frame);
     Need need{.filter = texels, .filterTexels = static_cast<std::int32_t>(std::ceil(texels))};
     if (settings_.texelsPerCaster > 0) {
@@ -306,7 +313,7 @@ Decision ResolutionController::decide(double texels, const DemandHistogram* hist
     d.need = need.texels();
     d.artifactRatio = texels / d.size;
     d.shareAbove =
-        histogram ? shareAbove(*histogram, d.size) : (need.filterTexels > d.size ? 1 : 0);
+        histogram ? shareAbove(*histogram, total, d.size) : (need.filterTexels > d.size ? 1 : 0);
     if (d.shareAbove > 0) d.minRadiusUv = settings_.slope.c / d.size;
     d.reason = reasonFor(d, need, allowed);
     const bool mayFade = state_.hadData && !state_.cutPending;
@@ -338,20 +345,21 @@ Decision ResolutionController::update(double radiusUv, const Frame& frame) noexc
         texels = std::min(texels, settings_.pixelBound / frame.footprintUv);
     }
     state_.radiusUv = radiusUv;
-    return decide(std::min<double>(texels, kLargestNeed), nullptr, frame);
+    return decide(std::min<double>(texels, kLargestNeed), nullptr, 0, frame);
 }
 
 Decision ResolutionController::update(const DemandHistogram& histogram,
                                       const Frame& frame) noexcept {
     begin(frame);
     if (const auto reason = unusable(frame)) return held(*reason, frame);
-    if (histogram.total() == 0) {
+    const std::uint64_t total = histogram.total();
+    if (total == 0) {
         return held(
             histogram.rejected > 0 ? Reason::heldRejectedDemand : Reason::heldEmptyHistogram,
             frame);
     }
     state_.radiusUv = 0;
-    return decide(needOf(histogram, settings_.percentile), &histogram, frame);
+    return decide(needOf(histogram, total, settings_.percentile), &histogram, total, frame);
 }
 
 Decision ResolutionController::hold(const Frame& frame) noexcept {

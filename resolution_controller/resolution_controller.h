@@ -241,7 +241,8 @@ class ResolutionController {
     void begin(const Frame& frame) noexcept;
     std::optional<Reason> unusable(const Frame& frame) const noexcept;
     std::int32_t choose(std::int32_t need, const Limits& limits) noexcept;
-    Decision decide(double texels, const DemandHistogram* histogram, const Frame& frame) noexcept;
+    Decision decide(double texels, const DemandHistogram* histogram, std::uint64_t total,
+                    const Frame& frame) noexcept;
     Reason reasonFor(const Decision& decision, const Need& need,
                      const Limits& limits) const noexcept;
     Decision held(Reason reason, const Frame& frame) noexcept;

@@ -25,6 +25,32 @@ bool isWorse(const BudgetLight& a, std::int32_t sizeA, const BudgetLight& b,
     return static_cast<std::int64_t>(a.need) * sizeB > static_cast<std::int64_t>(b.need) * sizeA;
 }
 
+/// The allotment for e = 2^(quarters / 4): each light's smallest level of at least need / e.
+std::uint64_t allotFor(std::span<BudgetLight> lights, int quarters) noexcept {
+    // 2^(1/4), ... times 2^16. Any number near them would do: they only say where to begin.
+    constexpr std::int64_t kQuarters[] = {65536, 77936, 92682, 110218};
+    const std::int64_t e = kQuarters[quarters % 4] << (quarters / 4);
+    std::uint64_t used = 0;
+    for (BudgetLight& light : lights) {
+        const std::int64_t atLeast = ((std::int64_t{light.need} << 16) + e - 1) / e;
+        light.size = std::clamp(levelAtLeast(atLeast, light.levelRatio).value_or(light.wanted),
+                                light.lowest, light.wanted);
+        used += cost(light, light.size);
+    }
+    return used;
+}
+
+/// Brings the lights to the allotment for the largest of a few e that still exceeds the budget: the
+/// steps of lower() that are certain, at once.
+std::uint64_t lowerCoarsely(std::span<BudgetLight> lights, std::uint64_t budget) noexcept {
+    int exceeds = 0, fits = 68;  // 2^17: need is at most 2^16
+    while (fits - exceeds > 1) {
+        const int middle = (exceeds + fits) / 2;
+        (allotFor(lights, middle) > budget ? exceeds : fits) = middle;
+    }
+    return allotFor(lights, exceeds);
+}
+
 /// Takes a level at a time from the light that suffers least, until the budget holds. The order of
 /// the steps is that of the ratios they lead to, so that the last one's is the smallest possible e.
 void lower(std::span<BudgetLight> lights, std::uint64_t budget, std::uint64_t& used,
@@ -104,6 +130,7 @@ BudgetUse shareBudget(std::span<BudgetLight> lights, std::int64_t budget,
     const auto available = static_cast<std::uint64_t>(std::max<std::int64_t>(budget, 0));
     use.used = use.wanted;
     if (use.used <= available) return use;
+    use.used = lowerCoarsely(lights, available);
     lower(lights, available, use.used, scratch);
     use.feasible = use.used <= available;
     if (use.feasible) raise(lights, available, use.used, scratch);
