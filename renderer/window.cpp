@@ -95,9 +95,12 @@ void Window::present(unsigned framebuffer, int widthPx, int heightPx) {
     int width = 0;
     int height = 0;
     glfwGetFramebufferSize(handle_->window, &width, &height);
-    glBlitNamedFramebuffer(framebuffer, 0, 0, 0, widthPx, heightPx, 0, 0, width, height,
-                           GL_COLOR_BUFFER_BIT,
-                           width == widthPx && height == heightPx ? GL_NEAREST : GL_LINEAR);
+    // Bound, and with its viewport set: Mesa learns a window's new size from these two calls.
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    glBlitFramebuffer(0, 0, widthPx, heightPx, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                      width == widthPx && height == heightPx ? GL_NEAREST : GL_LINEAR);
     glfwSwapBuffers(handle_->window);
 }
 
