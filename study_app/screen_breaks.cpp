@@ -38,9 +38,11 @@ std::optional<Request> drawPracticeOver(AppState& state, const Page& page) {
     beginPage(page, state.practiceOver ? "Well done" : "Let us look at this together", 760);
     if (state.practiceOver) {
         paragraph(
-            "You have got the idea. From now on the steps become harder to see, and you will "
-            "not be told whether you were right. That is as it should be: the computer keeps "
-            "looking for the point at which you are just unsure.");
+            "You have got the idea. From now on the steps become harder to see. That is as it "
+            "should be: the computer keeps looking for the point at which you are just unsure.");
+        if (!state.presentation.feedback) {
+            paragraph("You will not be told any more whether you were right.");
+        }
         paragraph("The session takes " + minutesText(state.runner->secondsLeft()) + ".");
     } else {
         warning("Please call the experimenter.");

@@ -5,12 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 
 #include "records/trial_table.h"
 #include "study_app/design_file.h"
 #include "study_app/recorded_session.h"
+#include "study_app/robot_observer.h"
+#include "study_app/trial_stimulus.h"
 #include "tests/run_command.h"
 #include "tests/study_app/window_person.h"
 #include "tests/temporary_folder.h"
@@ -235,6 +238,49 @@ TEST_F(WindowSession, DoesNotShowStimuliThatTheWindowCannotHold) {
     person.xdotool({"windowsize", person.window(), "700", "400"});
     person.press("Return");
     EXPECT_EQ(answer(person, "left"), "row 1 ok");
+}
+
+/// The largest radius, on a grid of 3 %, at which the robot still notices a condition's artifact,
+/// from the stimulus images alone.
+double noticedUpTo(const study_app::Design& design, const study_app::Condition& condition) {
+    Trial trial;
+    trial.pattern = condition.silhouette.pattern;
+    trial.artifactPx = condition.artifactPx;
+    trial.kernel = condition.kernel;
+    trial.encoding = design.encoding;
+    trial.side = "left";
+    double noticed = 0;
+    for (double r = 0.5 * condition.artifactPx; r < design.radius.max; r *= 1.03) {
+        trial.filterRadiusPx = r;
+        const study_app::TrialImages images = study_app::trialImages(trial, design.windowPx);
+        const double difference =
+            study_app::contourBend(images.left) - study_app::contourBend(images.right);
+        if (difference > study_app::kNoticeablePx) noticed = r;
+    }
+    return noticed;
+}
+
+TEST_F(WindowSession, ARobotThatSeesOnlyPixelsHasTheThresholdsOfTheStimuli) {
+    std::ofstream(folder_.path() / "pace.json")
+        << R"({"blank_s": 0, "fixation_s": 0, "too_fast_s": 0, "feedback_s": 0,
+               "break_every_trials": 0})";
+    WindowPerson person(
+        server_, folder_.path(),
+        {"--design", "quick", "--data", data(), "--participant", "01", "--seed", "3", "--robot",
+         "--presentation", (folder_.path() / "pace.json").string()});
+    person.waitFor("screen end");
+    EXPECT_EQ(person.exitCode(), 0) << person.errors();
+    const study_app::Session session = study_app::replayTable(table()).session;
+    std::map<std::string, double> measured;
+    for (std::size_t k = 0; k < session.conditions().size(); ++k) {
+        const double radius = study_app::thresholds(session)[k].radiusPx;
+        const double direct = noticedUpTo(session.design(), session.conditions()[k]);
+        // 15 trials leave a posterior sd of about .12 log10: 2 sd.
+        EXPECT_NEAR(std::log10(radius), std::log10(direct), 0.25) << session.conditions()[k].name;
+        measured[session.conditions()[k].name] = radius;
+    }
+    EXPECT_LT(measured["stair-a10-lit1"], measured["stair-a20-lit1"]);
+    EXPECT_LT(measured["step-a10-lit1"], measured["step-a20-lit1"]);
 }
 
 TEST_F(WindowSession, WaitsWithoutUsingTheProcessor) {
