@@ -35,7 +35,8 @@ VisibilityError compareVisibility(const renderer::FloatImage& image,
         if (!counts) continue;
         sum += difference;
         squares += difference * difference;
-        sizes.push_back(std::abs(difference));
+        // A NaN must show in every figure, and has no place in an order.
+        sizes.push_back(std::isnan(difference) ? INFINITY : std::abs(difference));
     }
     if (sizes.empty()) return {};
     std::sort(sizes.begin(), sizes.end());

@@ -4,6 +4,7 @@
 #include "demo/benchmark.h"
 #include "demo/benchmark_report.h"
 #include "program/run_program.h"
+#include "records/slope_file.h"
 #include "records/whole_file.h"
 
 namespace {
@@ -33,7 +34,9 @@ void measure(const Options& options) {
         settings.heightPx = options.height / 2;
         settings.rounds = 3;
     }
-    records::createFolders(options.out);  // before minutes of measuring
+    // Before minutes of measuring:
+    if (options.fit) records::readSlope(*options.fit / "slope.json");
+    records::createFolders(options.out);
     const renderer::HeadlessContext context;
     const demo::BenchmarkResult result = demo::runBenchmark(context.info(), settings);
 

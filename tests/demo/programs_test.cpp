@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// shadow_demo and shadow_bench as their users start them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "records/run_context.h"
+#include "records/whole_file.h"
+#include "renderer/scene.h"
+#include "renderer/technique.h"
+#include "tests/run_command.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::vector<std::string> smallFrame(std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"--headless", "--width",  "64", "--height",
+                                          "36",         "--frames", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+/// A line that begins with the name and a tab.
+bool hasLineFor(const std::string& text, std::string_view name) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        if (line.size() > name.size() && line.starts_with(name) && line[name.size()] == '\t')
+            return true;
+    return false;
+}
+
+TEST(ShadowDemo, ListsWhatTheTablesHold) {
+    const auto techniques = tests::runProgram("shadow_demo", {"--list-techniques"});
+    EXPECT_EQ(techniques.exitCode, 0);
+    for (const renderer::Technique& technique : renderer::techniques())
+        EXPECT_TRUE(hasLineFor(techniques.out, technique.name)) << technique.name;
+    const auto scenes = tests::runProgram("shadow_demo", {"--list-scenes"});
+    for (const renderer::SceneEntry& entry : renderer::builtInScenes())
+        EXPECT_TRUE(hasLineFor(scenes.out, entry.name)) << entry.name;
+}
+
+TEST(ShadowDemo, WritesAPictureAndItsStats) {
+    const tests::TemporaryFolder folder;
+    const std::string png = (folder.path() / "frame.png").string();
+    const std::string json = (folder.path() / "stats.json").string();
+    const auto result = tests::runProgram(
+        "shadow_demo", smallFrame({"--scene", "planar_occluder", "--screenshot", png, "--stats",
+                                   json, "--parameter", "bias_texels=0.5"}));
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const cv::Mat picture = cv::imread(png);
+    EXPECT_EQ(picture.cols, 64);
+    EXPECT_EQ(picture.rows, 36);
+    EXPECT_GT(cv::norm(picture - cv::Mat(picture.size(), picture.type(), cv::mean(picture))), 0)
+        << "a flat picture";
+
+    const auto stats = nlohmann::json::parse(std::ifstream(json));
+    const records::RunContext context = records::runContextFromJson(stats.at("context"), json);
+    EXPECT_EQ(context.program, "shadow_demo");
+    EXPECT_TRUE(context.glRenderer.has_value());
+    EXPECT_EQ(context.viewportWidthPx, 64);
+    EXPECT_EQ(stats.at("resolution_mode"), "auto");
+    EXPECT_GE(stats.at("resolution").get<int>(), 1);
+    EXPECT_FALSE(stats.at("reason").get<std::string>().empty());
+    EXPECT_EQ(stats.at("parameters").at("bias_texels"), 0.5);
+    EXPECT_EQ(stats.at("slope").at("c"), 3.47);
+    for (const char* pass : {"depth", "prepass", "lookup", "lit", "footprint"})
+        EXPECT_GT(stats.at("passes_ms").at(pass).at("median").get<double>(), 0) << pass;
+    const int n = stats.at("resolution");
+    EXPECT_EQ(stats.at("map_bytes").get<int>(), 4 * n * n);
+}
+
+TEST(ShadowDemo, RefusesBadInputInOneSentence) {
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "file").string();
+    std::ofstream(file) << "not a slope";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"--scene", "nope"}, "scene \"nope\" is not known; known are: planar_occluder, yard"},
+        {{"--technique", "nope"}, "technique \"nope\" is not known; known are: hard, pcf_disc"},
+        {{"--resolution", "0"}, "--resolution is \"0\""},
+        {{"--resolution", "-8"}, "--resolution is \"-8\""},
+        {{"--resolution", "1000000"}, "what the driver allows"},
+        {{"--radius", "nan"}, "radius is nan"},
+        {{"--radius", "-1"}, "radius is -1"},
+        {{"--radius-uv", "1.5"}, "no wider than the map"},
+        {{"--slope", file}, file},
+        {{"--slope", "/no/such/file.json"}, "/no/such/file.json"},
+        {{"--stats", file + "/below.json"}, file},
+        {{"--screenshot", file + "/below.png"}, file},
+        {{"--parameter", "bias_texels"}, "NAME=NUMBER"},
+        {{"--parameter", "bias_texels=nan"}, "nan"},
+        {{"--parameter", "size=1"}, "no parameter \"size\""},
+        {{"--samples", "0"}, "--samples is 0"}};
+    for (const auto& [arguments, sentence] : cases) {
+        const auto result = tests::runProgram("shadow_demo", smallFrame(arguments));
+        EXPECT_EQ(result.exitCode, 1) << arguments[1];
+        EXPECT_THAT(result.err, HasSubstr(sentence));
+        EXPECT_THAT(result.err, testing::Not(HasSubstr("terminate called")));
+    }
+    const auto zero = tests::runProgram("shadow_demo", {"--headless", "--width", "0"});
+    EXPECT_EQ(zero.exitCode, 1);
+    EXPECT_THAT(zero.err, HasSubstr("viewport is 0 x 720"));
+}
+
+TEST(ShadowDemo, SaysWhatIsMissingWithoutOpenGl45) {
+    // Mesa is told to offer no more than 3.3; the sentence names what was tried.
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
+    const auto result = tests::runProgram("shadow_demo", smallFrame({}));
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, HasSubstr("no OpenGL 4.5 core context could be made"));
+    EXPECT_THAT(result.err, HasSubstr("EGL"));
+}
+
+TEST(ShadowDemo, SaysThatThereIsNoDisplay) {
+    const char* display = std::getenv("DISPLAY");
+    const std::string saved = display == nullptr ? "" : display;
+    ::unsetenv("DISPLAY");
+    const auto result = tests::runProgram("shadow_demo", {"--frames", "1"});
+    if (!saved.empty()) ::setenv("DISPLAY", saved.c_str(), 1);
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, HasSubstr("window: "));
+}
+
+TEST(ShadowDemo, RunsInAWindow) {
+    const tests::TemporaryFolder folder;
+    const std::string json = (folder.path() / "stats.json").string();
+    const std::string png = (folder.path() / "frame.png").string();
+    const std::string log = (folder.path() / "log").string();
+    const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " STAIRWELL_BIN_DIR
+                                "/shadow_demo --frames 3 --width 96 --height 54 --stats " +
+                                json + " --screenshot " + png + " > " + log + " 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << records::readWholeFile(log);
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(json)).at("scene"), "yard");
+    EXPECT_EQ(cv::imread(png).cols, 96);
+}
+
+TEST(ShadowBench, WritesOneReportWithItsTable) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path out = folder.path() / "made" / "here";
+    const auto result = tests::runProgram(
+        "shadow_bench", {"--out", out.string(), "--resolutions", "auto,64,256", "--width", "160",
+                         "--height", "90", "--rounds", "2", "--scenes", "planar_occluder"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("the speed of the fixed 256 map"));
+    EXPECT_THAT(result.out, HasSubstr("report: " + (out / "report.html").string()));
+
+    std::istringstream table(records::readWholeFile(out / "benchmark.tsv"));
+    std::vector<std::vector<std::string>> rows;
+    std::string line;
+    int context = 0;
+    while (std::getline(table, line)) {
+        if (line.front() == '#') {
+            ++context;
+            continue;
+        }
+        rows.emplace_back();
+        std::istringstream cells(line);
+        for (std::string cell; std::getline(cells, cell, '\t');) rows.back().push_back(cell);
+    }
+    EXPECT_GT(context, 5);
+    ASSERT_EQ(rows.size(), 4U);
+    for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+    const auto cell = [&](std::size_t row, const std::string& name) {
+        const auto column = std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
+        return rows.at(row).at(static_cast<std::size_t>(column));
+    };
+    EXPECT_EQ(cell(1, "resolution_mode"), "auto");
+    EXPECT_EQ(cell(3, "is_reference"), "1");
+    EXPECT_EQ(cell(3, "rmse"), "0");
+    EXPECT_GT(std::stod(cell(2, "rmse")), 0.001);
+    EXPECT_GT(std::stod(cell(2, "frame_ms")), 0);
+
+    const std::string page = records::readWholeFile(out / "report.html");
+    EXPECT_THAT(page, HasSubstr("<svg"));
+    EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+    EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
+}
+
+TEST(ShadowBench, RefusesBadInputInOneSentence) {
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "file").string();
+    std::ofstream(file) << "x";
+    const std::string out = (folder.path() / "out").string();
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"--out", out, "--scenes", "nope"}, "scene \"nope\" is not known"},
+        {{"--out", out, "--techniques", "nope"}, "technique \"nope\" is not known"},
+        {{"--out", out, "--resolutions", "auto"}, "no fixed size"},
+        {{"--out", out, "--resolutions", "0"}, "--resolutions is \"0\""},
+        {{"--out", out, "--rounds", "0"}, "rounds is 0"},
+        {{"--out", out, "--slope", file}, file},
+        {{"--out", out, "--fit", out}, "slope.json"},
+        {{"--out", file + "/below"}, file}};
+    for (const auto& [arguments, sentence] : cases) {
+        const auto result = tests::runProgram("shadow_bench", arguments);
+        EXPECT_EQ(result.exitCode, 1) << arguments.back();
+        EXPECT_THAT(result.err, StartsWith("shadow_bench: "));
+        EXPECT_THAT(result.err, HasSubstr(sentence));
+    }
+    EXPECT_EQ(tests::runProgram("shadow_bench", {}).exitCode, 2);
+}
+
+}  // namespace

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Renderer and controller together.
+#include "demo/shadow_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "demo/demo_window.h"
+#include "renderer/scene.h"
+
+namespace {
+
+using demo::ShadowRun;
+using testing::HasSubstr;
+
+const renderer::GlInfo& gl() {
+    static const renderer::HeadlessContext context;
+    return context.info();
+}
+
+template <class Call>
+std::string messageOf(const Call& call) {
+    try {
+        call();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+ShadowRun::Settings settingsAt(double radiusUv, double c) {
+    ShadowRun::Settings settings;
+    settings.technique = &renderer::findTechnique("pcf_disc");
+    settings.parameters = settings.technique->standardParameters();
+    settings.radiusUv = radiusUv;
+    settings.slope.c = c;
+    return settings;
+}
+
+TEST(ResolutionOption, IsAutoOrAPositiveWholeNumber) {
+    EXPECT_FALSE(demo::parseResolution("auto", "--resolution"));
+    EXPECT_EQ(demo::parseResolution("1", "--resolution"), 1);
+    EXPECT_EQ(demo::parseResolution("4096", "--resolution"), 4096);
+    for (const char* bad : {"0", "-1", "", "12.5", "1024x", " 7", "99999999999", "Auto"})
+        EXPECT_EQ(messageOf([&] { demo::parseResolution(bad, "--resolution"); }),
+                  "--resolution is \"" + std::string(bad) +
+                      "\", must be auto or a whole number of texels from 1");
+}
+
+TEST(Softness, IsTheScenesOrWhatWasAskedFor) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 16, 9);
+    const double extent = frame.window().extentM;
+    EXPECT_DOUBLE_EQ(demo::chooseSoftness(frame, {}, {}).radiusM, frame.scene().softnessM);
+    EXPECT_DOUBLE_EQ(demo::chooseSoftness(frame, 0.1, {}).radiusUv, 0.1 / extent);
+    EXPECT_DOUBLE_EQ(demo::chooseSoftness(frame, {}, 0.02).radiusM, 0.02 * extent);
+    EXPECT_EQ(demo::chooseSoftness(frame, 0.0, {}).radiusUv, 0);
+    for (const double bad : std::vector<double>{NAN, -0.1, 1e9, INFINITY}) {
+        EXPECT_THAT(messageOf([&] { demo::chooseSoftness(frame, bad, {}); }),
+                    HasSubstr("radius is "));
+        EXPECT_THAT(messageOf([&] { demo::chooseSoftness(frame, {}, bad); }),
+                    HasSubstr("radius is "));
+    }
+}
+
+// Far more pixels than texels, so that the pixel bound is silent: N is c / r, rounded up by the
+// histogram's bin and the levels, at most a factor 2^(1/4) sqrt 2 in all.
+TEST(ShadowRun, AutomaticSizeFollowsSlopeAndSoftness) {
+    for (const auto& [radius, c] : {std::pair{0.04, 3.47}, {0.02, 3.47}, {0.02, 2.0}}) {
+        renderer::Renderer frame(gl(), renderer::makeScene("planar_occluder"), 640, 360);
+        ShadowRun run(frame, gl(), settingsAt(radius, c));
+        run.settle();
+        EXPECT_TRUE(run.chosen().automatic);
+        EXPECT_GE(run.chosen().resolution, c / radius * 0.999) << radius;
+        EXPECT_LE(run.chosen().resolution, c / radius * 1.72) << radius;
+        EXPECT_EQ(run.chosen().minRadiusUv, 0);
+        EXPECT_FALSE(run.chosen().reason.empty());
+    }
+}
+
+TEST(ShadowRun, PixelsBoundTheSize) {
+    renderer::Renderer frame(gl(), renderer::makeScene("planar_occluder"), 64, 36);
+    ShadowRun run(frame, gl(), settingsAt(0.004, 3.47));
+    run.settle();
+    EXPECT_LT(run.chosen().resolution, 400)
+        << "a map of c / r = 868 texels has several texels to a pixel";
+    EXPECT_GE(run.chosen().resolution, 32);
+}
+
+TEST(ShadowRun, SettlesFromAnyViewAndStays) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 160, 90);
+    ShadowRun run(frame, gl(), settingsAt(0.01, 3.47));
+    run.settle();
+    const int settled = run.chosen().resolution;
+    for (int i = 0; i < 20; ++i) {
+        run.step();
+        EXPECT_EQ(run.chosen().resolution, settled) << i;
+    }
+}
+
+TEST(ShadowRun, HoldsItsSizeWhereNothingIsInPenumbra) {
+    renderer::Scene scene = renderer::makeScene("planar_occluder");
+    scene.camera.target = {40, 30, 40};  // the sky
+    scene.camera.pitchDeg = -60;
+    renderer::Renderer frame(gl(), scene, 64, 36);
+    ShadowRun run(frame, gl(), settingsAt(0.01, 3.47));
+    run.settle();
+    const int held = run.chosen().resolution;
+    EXPECT_THAT(run.chosen().reason, HasSubstr("held"));
+    run.step();
+    EXPECT_EQ(run.chosen().resolution, held);
+}
+
+TEST(ShadowRun, FixedSizeIsLeftAlone) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 64, 36);
+    ShadowRun::Settings settings = settingsAt(0.01, 3.47);
+    settings.resolution = 77;
+    ShadowRun run(frame, gl(), settings);
+    EXPECT_EQ(run.settle(), 1);
+    EXPECT_EQ(run.chosen().resolution, 77);
+    EXPECT_FALSE(run.chosen().automatic);
+    EXPECT_EQ(frame.readShadowMap().width, 77);
+    settings.resolution = 1 << 20;
+    EXPECT_THAT(messageOf([&] { ShadowRun(frame, gl(), settings); }),
+                HasSubstr("resolution is 1048576"));
+}
+
+TEST(ShadowRun, TimesWholeFramesAndPassesApart) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 64, 36);
+    ShadowRun run(frame, gl(), settingsAt(0.01, 3.47));
+    run.settle();
+    EXPECT_EQ(run.timeWholeFrames(3).count, 3);
+    const ShadowRun::PassSpreads passes = run.timePasses(4);
+    for (const demo::Spread& spread : passes.passes) {
+        EXPECT_EQ(spread.count, 4);
+        EXPECT_GT(spread.median, 0);
+    }
+}
+
+TEST(ShadowRun, PictureIsAntialiasedAndLeavesTheFrameAsItWas) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 96, 54);
+    ShadowRun run(frame, gl(), settingsAt(0.01, 3.47));
+    run.settle();
+    const auto before = frame.readVisibility().values;
+    const renderer::ByteImage picture = run.picture(2);
+    EXPECT_EQ(picture.width, 96);
+    EXPECT_EQ(picture.height, 54);
+    EXPECT_EQ(frame.widthPx(), 96);
+    EXPECT_EQ(frame.readVisibility().values, before);
+}
+
+TEST(WindowKeys, ChangeWhatTheySay) {
+    demo::ViewState state;
+    EXPECT_TRUE(demo::applyKey('4', state));
+    EXPECT_EQ(state.resolution, 1024);
+    EXPECT_TRUE(demo::applyKey('R', state));
+    EXPECT_FALSE(state.resolution);
+    EXPECT_TRUE(demo::applyKey('R', state));
+    EXPECT_TRUE(state.resolution);
+    for (std::size_t i = 0; i < renderer::techniques().size(); ++i) demo::applyKey('T', state);
+    EXPECT_EQ(state.technique, 0U) << "once round";
+    demo::applyKey('S', state);
+    EXPECT_EQ(state.scene, 1U);
+    EXPECT_FALSE(demo::applyKey('Q', state));
+}
+
+}  // namespace
