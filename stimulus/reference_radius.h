@@ -14,7 +14,7 @@
 // that works may be smaller.
 //
 //   const auto radius = referenceRadius({.silhouette = {...}, .kernel = KernelShape::disc},
-//                                       ReferenceCriterion::halfCode);   // 62.75, or nothing
+//                                       ReferenceCriterion::halfCode);   // 60.5, or nothing
 #pragma once
 
 #include <optional>

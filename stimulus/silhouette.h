@@ -33,10 +33,9 @@ enum class Pattern { stair, step, line };
 
 struct SilhouetteOptions {
     Pattern pattern = Pattern::stair;
-    double artifactPx = 10;  ///< a > 0, up to kMaxSizePx; risers lie on pixel edges if whole
-    double angleDeg = 45;    ///< of a line alone, in (0, 45]
-    double riserSpacingPx =
-        600;  ///< L, of a step alone, a..kMaxSizePx; the window's width in studies
+    double artifactPx = 10;         ///< a > 0, up to kMaxSizePx; risers lie on pixel edges if whole
+    double angleDeg = 45;           ///< of a line alone, in (0, 45]
+    double riserSpacingPx = 600;    ///< L, of a step alone, a..kMaxSizePx; in studies the window
     double verticalPhasePx = 0.25;  ///< in [-1, 1]
 };
 
