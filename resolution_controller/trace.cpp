@@ -2,7 +2,7 @@
 #include "resolution_controller/trace.h"
 
 #include <array>
-#include <cmath>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -166,8 +166,10 @@ class Replay {
         report.firstFrame = report.frames;
         report.firstLight = light;
         const auto words = [](const TracedDecision& d) {
-            return std::to_string(d.size) + " (" + text(d.reason) + ", need " +
-                   std::to_string(d.need) + ")";
+            char numbers[100];
+            std::snprintf(numbers, sizeof numbers, ", need %d, fade %.17g, least radius %.17g)",
+                          d.need, d.fadeWeight, d.minRadiusUv);
+            return std::to_string(d.size) + " (" + text(d.reason) + numbers;
         };
         report.problem = "frame " + std::to_string(report.frames) + ", light " +
                          std::to_string(light) + ": recorded " + words(recorded) + ", now " +
