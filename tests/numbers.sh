@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+# Sourced by `run numbers`: prints every number of speed and of recovery that the project states, measured here and
+# now. Close other programs first; the numbers are medians, but a busy machine has slow medians.
+
+section() { printf '\n== %s\n' "$*"; }
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+printf 'revision %s, %s, %s cores\n' "$("$bin/study_app" --version)" \
+    "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)"
+for part in quest stimulus controller study_app; do
+    section "$part"
+    "$bin/${part}_benchmark" --benchmark_min_time=0.2 2>/dev/null || die "${part}_benchmark failed"
+done
+
+section "simulated study: paper16, 10 observers x 16 conditions x 40 trials, three times"
+for seed in 1 2 3; do
+    "$bin/study_app" --headless --design paper16 --data "$work/study-$seed" --observers 10 \
+        --observer simulated --seed "$seed" | tail -n 1 || die "study_app failed"
+done
+
+section "fit_slope on its 6,400 trials, figures and report included (seconds, three times)"
+for _ in 1 2 3; do
+    ( TIMEFORMAT='%R'; time "$bin/fit_slope" "$work/study-1" --out "$work/fit" >"$work/fit.txt" ) 2>&1
+done
+head -n 1 "$work/fit.txt"
+
+section "reference_filter --all, R1/2 and R1 (seconds)"
+( TIMEFORMAT='%R'; time "$bin/reference_filter" --all >"$work/reference.tsv" ) 2>&1
+
+section "coverage of the 95 % intervals over 500 small simulated studies"
+"$bin/fit_coverage" --studies 500 || die "fit_coverage failed"
