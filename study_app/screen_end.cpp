@@ -22,7 +22,7 @@ void cell(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
-void drawResult(AppState& state, const ConditionResult& r, std::size_t condition,
+void drawResult(AppState& state, const Page& page, const ConditionResult& r, std::size_t condition,
                 std::optional<Request>& request) {
     ImGui::TableNextRow();
     cell(r.threshold.condition);
@@ -33,7 +33,10 @@ void drawResult(AppState& state, const ConditionResult& r, std::size_t condition
     ImGui::TableNextColumn();
     if (!r.flagged()) return;
     ImGui::PushID(static_cast<int>(condition));
-    if (ImGui::SmallButton("Run again")) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {page.px(8), page.px(1)});
+    const bool pressed = ImGui::Button("Run again");
+    ImGui::PopStyleVar();
+    if (pressed) {
         state.rerun = condition;
         request = Request::rerun;
     }
@@ -70,7 +73,7 @@ void drawResults(AppState& state, const Page& page, std::optional<Request>& requ
         ImGui::TableHeadersRow();
         const std::vector<ConditionResult> results = conditionResults(session);
         for (std::size_t k = 0; k < results.size(); ++k) {
-            drawResult(state, results[k], k, request);
+            drawResult(state, page, results[k], k, request);
         }
         ImGui::EndTable();
     }
