@@ -14,7 +14,7 @@ constexpr double kLargestLogHazard = 600.0;
 constexpr double kLargestHazard = 700.0;  // exp(-700) is still a normal number
 // Points per unit of ln(hazard) on an interval: ln P(no) has its nearest singularity .7 off the
 // real axis (where lapses take over), which the number of points resolves.
-constexpr double kPointsPerUnit = 4.0;
+constexpr double kPointsPerUnit = 3.0;
 constexpr int kFewestPoints = 8, kMostPoints = 64;
 constexpr std::size_t kFactorsPerLog = 16;  // no product of so many probabilities underflows
 

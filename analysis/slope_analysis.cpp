@@ -78,26 +78,43 @@ Study withThresholds(const Study& study, double criterion, std::vector<std::stri
     return subset(study, std::vector<bool>(study.observers.size(), true), keep);
 }
 
-// Fits from the study's own start, or from a fit of a nested design (whose columns come first).
+// A fit that others can start from.
+struct Fitted {
+    MatrixXd design;
+    RandomObserverFit fit;
+};
+
 RandomObserverFit fit(const Study& study, MatrixXd design, double criterion, FitOptions options,
-                      const RandomObserverFit* from = nullptr) {
+                      const VectorXd& perCondition, const ModelParameters* curve) {
     const Model model = slopeModel(study, std::move(design), criterion);
-    Start start = startOf(study, model);
+    Start start = startOf(model, perCondition);
     options.estimateTau = options.estimateTau && start.estimateTau;
     options.estimateOmega = options.estimateOmega && start.estimateOmega;
-    if (from) {
-        const ModelParameters& at = from->parameters;
-        start.parameters.beta = at.beta;
+    if (curve) {
+        start.parameters.beta = curve->beta;
         // Off the bounds, where the likelihood is level in its coordinates.
-        start.parameters.lapse = std::clamp(at.lapse, 0.001, 0.149);
-        if (options.estimateTau) start.parameters.tau = std::max(0.01, at.tau);
-        if (options.estimateOmega) start.parameters.omega = std::max(0.01, at.omega);
-        if (at.fixed.size() <= model.design.cols()) {
-            start.parameters.fixed.setZero();
-            start.parameters.fixed.head(at.fixed.size()) = at.fixed;
-        }
+        start.parameters.lapse = std::clamp(curve->lapse, 0.001, 0.149);
+        if (options.estimateTau) start.parameters.tau = std::max(0.01, curve->tau);
+        if (options.estimateOmega) start.parameters.omega = std::max(0.01, curve->omega);
     }
     return fitRandomObservers(model, start.parameters, options);
+}
+
+// From the pooled answers of each group.
+RandomObserverFit fitFresh(const Study& study, const MatrixXd& design, double criterion) {
+    const std::vector<GroupCheck> checks = checkGroups(study, criterion);
+    VectorXd perCondition(design.rows());
+    for (std::size_t k = 0; k < study.conditions.size(); ++k) {
+        perCondition[static_cast<Index>(k)] = checks[study.conditions[k].group].log10c;
+    }
+    return fit(study, design, criterion, {}, perCondition, nullptr);
+}
+
+// From another fit of the same study: a few steps.
+RandomObserverFit fitFrom(const Fitted& from, const Study& study, const MatrixXd& design,
+                          double criterion, const FitOptions& options = {}) {
+    return fit(study, design, criterion, options, from.design * from.fit.parameters.fixed,
+               &from.fit.parameters);
 }
 
 RatioTest ratioTest(const RandomObserverFit& narrow, const RandomObserverFit& wide,
@@ -117,25 +134,19 @@ void noteConvergence(const RandomObserverFit& fit, const std::string& what,
     notices.push_back(text.str());
 }
 
-// The plain likelihood of the law, for ratios; from the restricted fit it is a few steps away.
-RandomObserverFit plainLaw(const Study& study, double criterion, const RandomObserverFit& law) {
-    return fit(study, perGroupDesign(study), criterion, kForRatio, &law);
-}
-
-void testTheLaw(const Study& study, double criterion, const MatrixXd& design,
+void testTheLaw(const Study& study, double criterion, const MatrixXd& design, const Fitted& law,
                 const RandomObserverFit& narrow, SlopeResult& result,
                 std::vector<std::string>& notices) {
-    const RandomObserverFit wide = fit(study, design, criterion, kForRatio, &result.law);
-    // Column for column the design of the law with one more.
-    result.sizeFit = fit(study, design, criterion, {}, &wide);
+    const Fitted wide{design, fitFrom(law, study, design, criterion, kForRatio)};
+    result.sizeFit = fitFrom(wide, study, design, criterion);
     noteConvergence(*result.sizeFit, "fit of kappa", notices);
     result.kappa = linearEstimate(*result.sizeFit, unitVector(design.cols(), design.cols() - 1));
     result.kappa->value += 1;
-    if (!narrow.converged || !wide.converged) {
+    if (!narrow.converged || !wide.fit.converged) {
         notices.push_back("test of kappa = 1: left out, since a fit did not converge");
         return;
     }
-    result.kappaTest = ratioTest(narrow, wide, 1);
+    result.kappaTest = ratioTest(narrow, wide.fit, 1);
     result.lawRejected = result.kappaTest->pValue < kLawLevel && result.sizeFit->converged;
 }
 
@@ -158,12 +169,14 @@ SlopeResult slopeOf(const Study& study, const AnalysisOptions& options,
                     std::vector<std::string>& notices, std::optional<RandomObserverFit>& plain,
                     StageTimes* times) {
     SlopeResult result;
-    result.law = fit(study, perGroupDesign(study), options.criterion, {});
+    const MatrixXd perGroup = perGroupDesign(study);
+    result.law = fitFresh(study, perGroup, options.criterion);
     noteConvergence(result.law, "fit of the law", notices);
     lap(times, "fit of the law");
     if (const auto design = sizeExponentDesign(study)) {
-        plain = plainLaw(study, options.criterion, result.law);
-        testTheLaw(study, options.criterion, *design, *plain, result, notices);
+        const Fitted law{perGroup, result.law};
+        plain = fitFrom(law, study, perGroup, options.criterion, kForRatio);
+        testTheLaw(study, options.criterion, *design, law, *plain, result, notices);
         lap(times, "test of the law");
     }
     chooseHeadline(study, options.seed, result);
@@ -196,8 +209,16 @@ void fitConditions(SlopeAnalysis& result) {
         subset(result.study, std::vector<bool>(result.study.observers.size(), true), keep);
     RandomObserverFit own;
     if (!estimable.conditions.empty()) {
+        const VectorXd all = perGroupDesign(result.study) * result.slope.law.parameters.fixed;
+        VectorXd perCondition(static_cast<Index>(estimable.conditions.size()));
+        Index next = 0;
+        for (std::size_t k = 0; k < keep.size(); ++k) {
+            if (keep[k]) perCondition[next++] = all[static_cast<Index>(k)];
+        }
+        // A pattern that lost all its conditions has lost its beta as well.
+        const bool sameCurve = next == all.size();
         own = fit(estimable, perConditionDesign(estimable), result.options.criterion, {},
-                  &result.slope.law);
+                  perCondition, sameCurve ? &result.slope.law.parameters : nullptr);
         noteConvergence(own, "fit of the single conditions", result.notices);
     }
     Index column = 0;
@@ -251,17 +272,18 @@ void compare(const Study& all, std::optional<RandomObserverFit> plain, SlopeAnal
              StageTimes* times) {
     const Study& study = result.study;
     const double criterion = result.options.criterion;
+    const Fitted law{perGroupDesign(study), result.slope.law};
     if (study.groups.size() >= 2) {
-        if (!plain) plain = plainLaw(study, criterion, result.slope.law);
+        if (!plain) plain = fitFrom(law, study, law.design, criterion, kForRatio);
         const RandomObserverFit equal =
-            fit(study, oneSlopeDesign(study), criterion, kForRatio, &result.slope.law);
+            fitFrom(law, study, oneSlopeDesign(study), criterion, kForRatio);
         if (equal.converged && plain->converged) {
             result.equalGroupsTest =
                 ratioTest(equal, *plain, static_cast<int>(study.groups.size()) - 1);
         }
     }
     if (const auto design = contrastDesign(study)) {
-        const RandomObserverFit contrast = fit(study, *design, criterion, {}, &result.slope.law);
+        const RandomObserverFit contrast = fitFrom(law, study, *design, criterion);
         noteConvergence(contrast, "fit of the contrast exponent", result.notices);
         result.contrastExponent =
             linearEstimate(contrast, unitVector(design->cols(), design->cols() - 1));

@@ -27,7 +27,7 @@ inline constexpr double kLawLevel = 0.05;
 
 struct AnalysisOptions {
     double criterion = quest::kPaperCriterion;  ///< F*, (0, 1)
-    ScreeningRules screening;
+    ScreeningRules screening = {};
     std::uint64_t seed = kBootstrapSeed;  ///< of the parametric bootstrap
     /// Off: headline, groups, overall and the test of the law alone, for simulations.
     bool comparisons = true;

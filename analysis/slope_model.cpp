@@ -21,7 +21,7 @@ constexpr double kStartTau = 0.1, kStartOmega = 0.05;  // log10, METHODS section
 // longer depend on the slope. An optimum must be better than that by the second number (in ln L).
 constexpr double kBeyondShown = 1.0;
 constexpr double kBetterThanNone = 0.05;
-constexpr double kGridStep = 0.01;
+constexpr double kGridStep = 0.04;
 
 Index index(std::size_t i) {
     return static_cast<Index>(i);
@@ -177,13 +177,8 @@ Model slopeModel(const Study& study, MatrixXd design, double criterion) {
     return model;
 }
 
-Start startOf(const Study& study, const Model& model) {
+Start startOf(const Model& model, const Eigen::VectorXd& perCondition) {
     Start start;
-    const std::vector<GroupCheck> groups = checkGroups(study, model.criterion);
-    Eigen::VectorXd perCondition(model.design.rows());
-    for (std::size_t k = 0; k < study.conditions.size(); ++k) {
-        perCondition[index(k)] = groups[study.conditions[k].group].log10c;
-    }
     start.parameters.fixed = (model.design.transpose() * model.design)
                                  .ldlt()
                                  .solve(model.design.transpose() * perCondition);

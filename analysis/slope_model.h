@@ -30,13 +30,13 @@ std::optional<Eigen::MatrixXd> contrastDesign(const Study& study);
 /// guess on a lapse are the observer's shrunk false-alarm rate.
 Model slopeModel(const Study& study, Eigen::MatrixXd design, double criterion);
 
-/// Where a fit can start: the pooled answers' best slope per condition's group on a grid, beta 3.5,
-/// the spreads at typical values, or at 0 where the data cannot tell them.
+/// Where a fit can start, from a slope per condition (log10 c): the nearest that the design can do,
+/// beta 3.5, the spreads at typical values, or at 0 where the data cannot tell them.
 struct Start {
     ModelParameters parameters;
     bool estimateTau = true, estimateOmega = true;
 };
-Start startOf(const Study& study, const Model& model);
+Start startOf(const Model& model, const Eigen::VectorXd& perCondition);
 
 /// Whether the answers of a group have a slope at all.
 enum class GroupState {

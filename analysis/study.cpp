@@ -110,7 +110,7 @@ struct Gathered {
         int references = 0, falseAlarms = 0, catchTrials = 0, catchFailures = 0;
     };
     std::map<std::string, Person> people;
-    std::map<GroupKey, std::set<double>> angles;  // as the trials of the group give them
+    std::map<ConditionKey, std::set<double>> angles;  // as its trials give them
     Shared task{"task", {}, {}}, kernel{"kernel", {}, {}}, encoding{"encoding", {}, {}};
 };
 
@@ -160,7 +160,7 @@ void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& n
                                      .proposedPx = trial.proposedRadiusPx,
                                      .yes = yes,
                                      .catchTrial = catchTrial});
-        if (trial.angleDeg) into.angles[key.first].insert(*trial.angleDeg);
+        if (trial.angleDeg) into.angles[key].insert(*trial.angleDeg);
     }
     leftOut.report(table.file.string(), notices);
 }
@@ -185,19 +185,28 @@ Study indexed(Gathered&& gathered) {
     for (const auto& [id, person] : gathered.people) {
         for (const auto& [key, trials] : person.cells) conditionIndex[key] = 0;
     }
+    const auto only = [](const std::set<double>& angles) {
+        return angles.size() == 1 ? std::optional(*angles.begin()) : std::nullopt;
+    };
     std::map<GroupKey, std::size_t> groupIndex;
+    std::vector<std::set<double>> groupAngles;
     for (auto& [key, index] : conditionIndex) {  // sorted: groups come in one piece
         const auto [at, isNew] = groupIndex.insert({key.first, study.groups.size()});
         if (isNew) {
-            const std::set<double>& angles = gathered.angles[key.first];
-            study.groups.push_back(
-                {.name = groupName(key.first),
-                 .pattern = std::get<0>(key.first),
-                 .angleDeg = angles.size() == 1 ? std::optional(*angles.begin()) : std::nullopt,
-                 .litLevel = -std::get<2>(key.first)});
+            study.groups.push_back({.name = groupName(key.first),
+                                    .pattern = std::get<0>(key.first),
+                                    .angleDeg = {},
+                                    .litLevel = -std::get<2>(key.first)});
+            groupAngles.emplace_back();
         }
+        const std::set<double>& angles = gathered.angles[key];
+        groupAngles.back().insert(angles.begin(), angles.end());
         index = study.conditions.size();
-        study.conditions.push_back({.group = at->second, .artifactPx = key.second});
+        study.conditions.push_back(
+            {.group = at->second, .artifactPx = key.second, .angleDeg = only(angles)});
+    }
+    for (std::size_t g = 0; g < study.groups.size(); ++g) {
+        study.groups[g].angleDeg = only(groupAngles[g]);
     }
     for (auto& [id, person] : gathered.people) {
         if (person.cells.empty()) {
@@ -332,7 +341,8 @@ Study subset(const Study& study, const std::vector<bool>& keepObserver,
             kept.groups.push_back(study.groups[group]);
         }
         newCondition[k] = kept.conditions.size();
-        kept.conditions.push_back({newGroup[group], study.conditions[k].artifactPx});
+        kept.conditions.push_back(study.conditions[k]);
+        kept.conditions.back().group = newGroup[group];
     }
     for (Observer& observer : kept.observers) {
         for (Cell& cell : observer.cells) cell.condition = newCondition[cell.condition];

@@ -22,13 +22,14 @@ namespace analysis {
 struct Group {
     std::string name;  ///< "stair, lit 1", "line 22.5 deg, lit 1"
     records::Pattern pattern = records::Pattern::stair;
-    std::optional<double> angleDeg;  ///< of lines; else where all its trials have the same one
+    std::optional<double> angleDeg;  ///< where all its trials have the same one, as lines do
     double litLevel = 1;
 };
 
 struct Condition {
     std::size_t group = 0;  ///< index into Study::groups
     double artifactPx = 0;
+    std::optional<double> angleDeg;  ///< of the true silhouette, where its trials have the same one
 };
 
 struct StudyTrial {

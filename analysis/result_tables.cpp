@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/result_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "analysis/number_text.h"
+
+namespace analysis {
+namespace {
+
+using Row = std::vector<std::string>;
+
+constexpr const char* kUnknown = "n/a";
+
+std::string full(double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.8g", value);
+    return text;
+}
+
+std::string full(const std::optional<double>& value) {
+    return value ? full(*value) : kUnknown;
+}
+
+std::string rounded(const std::optional<double>& value, int decimals) {
+    return value ? fixedText(*value, decimals) : kUnknown;
+}
+
+// c, low, high.
+void appendSlope(Row& row, const std::optional<double>& log10c,
+                 const std::optional<records::Interval>& ci95) {
+    row.push_back(log10c ? full(std::pow(10.0, *log10c)) : kUnknown);
+    row.push_back(ci95 ? full(std::pow(10.0, ci95->low)) : kUnknown);
+    row.push_back(ci95 ? full(std::pow(10.0, ci95->high)) : kUnknown);
+}
+
+struct Estimator {
+    std::string name, assumes;
+    std::optional<double> log10c;
+    std::optional<records::Interval> ci95;
+};
+
+std::vector<Estimator> estimators(const SlopeAnalysis& analysis) {
+    const SlopeResult& slope = analysis.slope;
+    std::vector<Estimator> rows = {
+        {"headline: worst group, mean observer",
+         slope.lawRejected ? "largest slope over groups and measured sizes"
+                           : "r = c a within a group; largest slope over groups",
+         slope.headline.value, slope.headline.ci95},
+        {"worst group, 90th-percentile observer", "observers normal in log10 c",
+         slope.headline.value90, slope.headline.ci95For90},
+        {"overall, one-stage", "mean of the groups' log10 c; random observers",
+         analysis.overall.value, analysis.overall.ci95()},
+        {"overall, two-stage", "mean over observers of log10 thresholds; leaves censored cells out",
+         analysis.twoStage.log10c, analysis.twoStage.ci95},
+        {"overall, two-stage median", "median over observers", analysis.twoStage.medianLog10c, {}}};
+    if (analysis.throughOrigin) {
+        rows.push_back({"all conditions, least squares through the origin in px (published method)",
+                        "radii scatter equally at every size; about 4 % too large; no interval",
+                        std::log10(*analysis.throughOrigin),
+                        {}});
+    }
+    if (analysis.pooled && analysis.pooled->converged) {
+        rows.push_back({"overall, pooled maximum likelihood",
+                        "all trials from one observer; an interval would be far too short",
+                        analysis.pooled->fixed.mean(),
+                        {}});
+    }
+    if (analysis.everyone) {
+        rows.push_back({"headline with the excluded observers", "as the headline, nobody left out",
+                        analysis.everyone->headline.value, analysis.everyone->headline.ci95});
+    }
+    return rows;
+}
+
+TextTable groupFile(const SlopeAnalysis& analysis) {
+    TextTable table{.name = "groups",
+                    .caption = "",
+                    .head = {"group", "pattern", "angle_deg", "lit_level", "observers", "trials",
+                             "c", "c_low", "c_high", "df", "two_stage_c", "two_stage_low",
+                             "two_stage_high", "censored", "through_origin_c", "flag"},
+                    .rows = {}};
+    for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
+        const Group& group = analysis.study.groups[g];
+        const GroupResult& result = analysis.groups[g];
+        Row row = {group.name,
+                   std::string(records::toText(group.pattern)),
+                   full(group.angleDeg),
+                   full(group.litLevel),
+                   std::to_string(result.observers),
+                   std::to_string(result.trials)};
+        appendSlope(row, result.c.value, result.c.ci95());
+        row.push_back(result.c.degreesOfFreedom > 0 ? full(result.c.degreesOfFreedom) : kUnknown);
+        appendSlope(row, result.twoStage.log10c, result.twoStage.ci95);
+        row.push_back(std::to_string(result.twoStage.censored));
+        row.push_back(full(result.throughOrigin));
+        row.push_back(result.flag.empty() ? kUnknown : result.flag);
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+TextTable conditionFile(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
+    TextTable table{.name = "conditions",
+                    .caption = "",
+                    .head = {"group", "artifact_px", "angle_deg", "observers", "trials", "c",
+                             "c_low", "c_high", "radius_px", "reference_radius_px", "flag"},
+                    .rows = {}};
+    for (std::size_t k = 0; k < analysis.conditions.size(); ++k) {
+        const Condition& condition = analysis.study.conditions[k];
+        const ConditionResult& result = analysis.conditions[k];
+        Row row = {analysis.study.groups[condition.group].name, full(condition.artifactPx),
+                   full(condition.angleDeg), std::to_string(result.observers),
+                   std::to_string(result.trials)};
+        const auto log10c = result.c ? std::optional(result.c->value) : std::nullopt;
+        appendSlope(row, log10c, result.c ? result.c->ci95() : std::nullopt);
+        row.push_back(log10c ? full(std::pow(10.0, *log10c) * condition.artifactPx) : kUnknown);
+        row.push_back(full(referenceSize(reference, analysis.study, k)));
+        row.push_back(result.flag.empty() ? kUnknown : result.flag);
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+TextTable thresholdFile(const SlopeAnalysis& analysis) {
+    TextTable table{.name = "thresholds",
+                    .caption = "",
+                    .head = {"participant", "group", "artifact_px", "trials", "yes", "c",
+                             "radius_px", "log10_c", "log10_c_se", "state"},
+                    .rows = {}};
+    for (const CellThreshold& cell : analysis.thresholds) {
+        const Condition& condition = analysis.study.conditions[cell.condition];
+        const bool has = cell.state == ThresholdState::estimated;
+        const auto ifHas = [has](double value) { return has ? full(value) : kUnknown; };
+        table.rows.push_back({analysis.study.observers[cell.observer].id,
+                              analysis.study.groups[condition.group].name,
+                              full(condition.artifactPx), std::to_string(cell.trials),
+                              std::to_string(cell.yes), ifHas(std::pow(10.0, cell.log10c)),
+                              ifHas(cell.radiusPx), ifHas(cell.log10c), ifHas(cell.standardError),
+                              toText(cell.state)});
+    }
+    return table;
+}
+
+TextTable estimatorFile(const SlopeAnalysis& analysis) {
+    TextTable table{.name = "estimators",
+                    .caption = "",
+                    .head = {"estimator", "assumes", "c", "c_low", "c_high"},
+                    .rows = {}};
+    for (const Estimator& estimator : estimators(analysis)) {
+        Row row = {estimator.name, estimator.assumes};
+        appendSlope(row, estimator.log10c, estimator.ci95);
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+TextTable screeningTable(const SlopeAnalysis& analysis) {
+    TextTable table{.name = "screening",
+                    .caption = "Screening, by rules fixed before any slope was seen.",
+                    .head = {"participant", "trials", "references", "false_alarms", "rate_lower_95",
+                             "catch_trials", "catch_failures", "runs_at_a_limit", "excluded"},
+                    .rows = {}};
+    for (const ScreenedObserver& row : analysis.screening) {
+        table.rows.push_back({row.id, std::to_string(row.trials), std::to_string(row.references),
+                              std::to_string(row.falseAlarms),
+                              fixedText(row.falseAlarmLowerBound, 3),
+                              std::to_string(row.catchTrials), std::to_string(row.catchFailures),
+                              std::to_string(row.runsAtLimit.size()),
+                              row.excluded         ? row.reason
+                              : row.reason.empty() ? "no"
+                                                   : "kept: " + row.reason});
+    }
+    return table;
+}
+
+TextTable groupReport(const SlopeAnalysis& analysis) {
+    TextTable table{
+        .name = "groups",
+        .caption =
+            "Slope c per group (r = c a), mean observer, with 95 % interval; beside "
+            "it the two-stage mean and the published method's line through the "
+            "origin.",
+        .head = {"group", "observers", "trials", "c", "two-stage", "censored", "through origin"},
+        .rows = {}};
+    for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
+        const GroupResult& result = analysis.groups[g];
+        std::string name = analysis.study.groups[g].name;
+        if (!result.flag.empty()) name += " (" + result.flag + ")";
+        table.rows.push_back(
+            {name, std::to_string(result.observers), std::to_string(result.trials),
+             slopeText(result.c),
+             result.twoStage.log10c ? slopeText(*result.twoStage.log10c, result.twoStage.ci95)
+                                    : kUnknown,
+             std::to_string(result.twoStage.censored), rounded(result.throughOrigin, 2)});
+    }
+    return table;
+}
+
+TextTable conditionReport(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
+    TextTable table{
+        .name = "conditions",
+        .caption =
+            "Each condition by itself: its slope with 95 % interval, the threshold "
+            "radius, and the reference size R1/2 from which no display code "
+            "differs by more than rounding.",
+        .head = {"group", "a (px)", "observers", "trials", "c", "radius (px)", "R1/2 (px)"},
+        .rows = {}};
+    for (std::size_t k = 0; k < analysis.conditions.size(); ++k) {
+        const Condition& condition = analysis.study.conditions[k];
+        const ConditionResult& result = analysis.conditions[k];
+        std::string name = analysis.study.groups[condition.group].name;
+        if (!result.flag.empty()) name += " (" + result.flag + ")";
+        const auto radius =
+            result.c ? std::optional(std::pow(10.0, result.c->value) * condition.artifactPx)
+                     : std::nullopt;
+        table.rows.push_back({name, shortText(condition.artifactPx),
+                              std::to_string(result.observers), std::to_string(result.trials),
+                              result.c ? slopeText(*result.c) : kUnknown, rounded(radius, 1),
+                              rounded(referenceSize(reference, analysis.study, k), 1)});
+    }
+    return table;
+}
+
+TextTable estimatorReport(const SlopeAnalysis& analysis) {
+    TextTable table{.name = "estimators",
+                    .caption = "The headline and other estimates, each with what it assumes.",
+                    .head = {"estimate", "c", "assumes"},
+                    .rows = {}};
+    for (const Estimator& estimator : estimators(analysis)) {
+        if (!estimator.log10c) continue;
+        table.rows.push_back({estimator.name,
+                              estimator.ci95 ? slopeText(*estimator.log10c, estimator.ci95)
+                                             : fixedText(std::pow(10.0, *estimator.log10c), 2),
+                              estimator.assumes});
+    }
+    return table;
+}
+
+}  // namespace
+
+std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
+    return {groupFile(analysis), conditionFile(analysis, reference), thresholdFile(analysis),
+            estimatorFile(analysis), screeningTable(analysis)};
+}
+
+std::vector<TextTable> reportTables(const SlopeAnalysis& analysis,
+                                    const ReferenceSizes& reference) {
+    TextTable screening = screeningTable(analysis);
+    screening.head = {"participant",    "trials",          "references",
+                      "false alarms",   "lower 95 %",      "catch trials",
+                      "catch failures", "runs at a limit", "left out"};
+    return {groupReport(analysis), conditionReport(analysis, reference), estimatorReport(analysis),
+            screening};
+}
+
+std::string tsvText(const TextTable& table) {
+    std::string text;
+    const auto add = [&](const Row& row) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (i > 0) text += '\t';
+            text += row[i];
+        }
+        text += '\n';
+    };
+    add(table.head);
+    for (const Row& row : table.rows) add(row);
+    return text;
+}
+
+std::string alignedText(const TextTable& table) {
+    std::vector<std::size_t> width(table.head.size(), 0);
+    const auto widen = [&](const Row& row) {
+        for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+    };
+    widen(table.head);
+    for (const Row& row : table.rows) widen(row);
+    std::string text;
+    const auto add = [&](const Row& row) {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            line += row[i];
+            if (i + 1 < row.size()) line.append(width[i] + 2 - row[i].size(), ' ');
+        }
+        text += line + '\n';
+    };
+    add(table.head);
+    for (const Row& row : table.rows) add(row);
+    return text;
+}
+
+}  // namespace analysis
