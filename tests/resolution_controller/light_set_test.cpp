@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -228,6 +229,46 @@ TEST(LightSet, SettlesFromAnyStartWithinFourChanges) {
         }
         for (const int n : changes) EXPECT_LE(n, 4);
     }
+}
+
+// The promise to replays and networked games: this number is the same for every compiler, library
+// and machine. It changes when a rule does, and then the major version of the trace must, too.
+TEST(LightSet, DecidesTheSameOnEveryMachine) {
+    std::mt19937_64 rng(2024);
+    rc::LightSet lights(std::vector<rc::Settings>{
+        {.slope = {.c = 3.1, .contrastExponent = 0.23}, .crossFadeFrames = 7},
+        {.levelRatio = rc::LevelRatio::two},
+        {.percentile = 0.9, .textureSize = 4096}});
+    std::vector<rc::Decision> decisions(3);
+    std::uint64_t hash = 14695981039346656037u;
+    const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
+    for (int frame = 0; frame < 3000; ++frame) {
+        rc::DemandHistogram histogram;
+        for (int i = 0; i < 30; ++i) {
+            const auto radius = static_cast<float>(1 + rng() % 4000) / 65536;
+            histogram.add(
+                rc::demand(rc::DemandRule{.contrastExponent = 0.31f},
+                           {.radiusUv = radius,
+                            .footprint = rc::pixelFootprint({.dudx = radius / 3, .dvdy = 0.001f}),
+                            .contrast = static_cast<float>(rng() % 100) / 99}));
+        }
+        const double radius = double(1 + rng() % 900) / 70000;
+        const rc::Frame some{.contrast = double(rng() % 100) / 99};
+        const std::vector<LightData> data{
+            {.kind = LightData::Kind::radius, .radiusUv = radius, .frame = some},
+            {.kind = LightData::Kind::histogram, .histogram = &histogram},
+            {.kind = LightData::Kind::histogram, .histogram = &histogram, .frame = some}};
+        lights.update(data, decisions, {.texels = std::int64_t(rng() % 9'000'000)});
+        for (const rc::Decision& d : decisions) {
+            add(std::uint64_t(d.size));
+            add(std::uint64_t(d.need));
+            add(std::uint64_t(d.reason));
+            add(std::bit_cast<std::uint64_t>(d.minRadiusUv));
+            add(std::bit_cast<std::uint64_t>(d.fadeWeight));
+            add(std::bit_cast<std::uint64_t>(d.artifactRatio));
+        }
+    }
+    EXPECT_EQ(hash, 3724217693353111278u);
 }
 
 }  // namespace
