@@ -334,6 +334,8 @@ void Renderer::drawPrepass() {
     glBindFramebuffer(GL_FRAMEBUFFER, prepassTarget_.name());
     glViewport(0, 0, widthPx_, heightPx_);
     glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
     const std::array<float, 4> none{};
     const float farthest = 1;
     for (GLint target = 0; target < 4; ++target) glClearBufferfv(GL_COLOR, target, none.data());

@@ -2,8 +2,9 @@
 #include "renderer/shader_library.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
-#include <regex>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -30,6 +31,67 @@ std::string preamble(const ShaderOptions& options) {
     return text.str();
 }
 
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// What follows `#include` on a line, or nothing where the line is no include.
+std::optional<std::string> includedName(std::string_view line) {
+    constexpr std::string_view kInclude = "include";
+    std::string_view rest = trimmed(line);
+    if (!rest.starts_with('#')) return std::nullopt;
+    rest = trimmed(rest.substr(1));
+    if (!rest.starts_with(kInclude)) return std::nullopt;
+    rest = rest.substr(kInclude.size());
+    if (!rest.empty() &&
+        (std::isalnum(static_cast<unsigned char>(rest.front())) != 0 || rest.front() == '_'))
+        return std::nullopt;
+    return std::string(trimmed(rest));
+}
+
+/// Takes digits off the front of `text`; nothing where it does not begin with one.
+std::optional<std::size_t> takeNumber(std::string_view& text) {
+    std::size_t digits = 0;
+    std::size_t value = 0;
+    for (; digits < text.size() && digits < 9 &&
+           std::isdigit(static_cast<unsigned char>(text[digits])) != 0;
+         ++digits)
+        value = 10 * value + static_cast<std::size_t>(text[digits] - '0');
+    if (digits == 0) return std::nullopt;
+    text.remove_prefix(digits);
+    return value;
+}
+
+bool take(std::string_view& text, std::string_view prefix) {
+    if (!text.starts_with(prefix)) return false;
+    text.remove_prefix(prefix.size());
+    return true;
+}
+
+/// One line of a driver's log: Mesa "1:12(5): error: ...", NVIDIA "1(12) : error ...", others
+/// "ERROR: 1:12: ...".
+std::string locatedLine(std::string_view line, const std::vector<std::string>& files) {
+    std::string_view rest = line;
+    std::string_view severity;
+    for (const std::string_view word : {"ERROR: ", "WARNING: "})
+        if (take(rest, word)) severity = word;
+    const auto file = takeNumber(rest);
+    if (!file || *file >= files.size()) return std::string(line);
+    const bool inBrackets = take(rest, "(");
+    if (!inBrackets && !take(rest, ":")) return std::string(line);
+    const auto number = takeNumber(rest);
+    if (!number || (inBrackets && !take(rest, ")"))) return std::string(line);
+    if (!inBrackets && take(rest, "("))
+        rest.remove_prefix(std::min(rest.find(')') + 1, rest.size()));  // column
+    rest = trimmed(rest);
+    take(rest, ":");
+    std::ostringstream located;
+    located << files[*file] << ":" << *number << ": " << severity << trimmed(rest);
+    return located.str();
+}
+
 class Expander {
   public:
     Expander(const ShaderLibrary& library, const ShaderOptions& options)
@@ -47,14 +109,13 @@ class Expander {
         std::istringstream lines(source);
         std::string line;
         for (int lineNumber = 1; std::getline(lines, line); ++lineNumber) {
-            static const std::regex includeLine(R"(^\s*#\s*include\b\s*(.*)$)");
-            std::smatch match;
-            if (!std::regex_match(line, match, includeLine)) {
+            const std::optional<std::string> included = includedName(line);
+            if (!included) {
                 out.text += line + "\n";
                 continue;
             }
             const std::string here = std::string(kFolder) + path + ":" + std::to_string(lineNumber);
-            expand(resolve(match[1].str(), here), here, out);
+            expand(resolve(*included, here), here, out);
             out.text +=
                 "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
         }
@@ -63,13 +124,13 @@ class Expander {
 
   private:
     std::string resolve(const std::string& quoted, const std::string& here) const {
-        static const std::regex quotes(R"del("([^"]+)"\s*)del");
-        std::smatch match;
-        if (!std::regex_match(quoted, match, quotes))
+        const bool isQuoted = quoted.size() > 2 && quoted.front() == '"' && quoted.back() == '"';
+        if (!isQuoted || quoted.find('"', 1) != quoted.size() - 1)
             throw std::runtime_error(here +
                                      ": #include needs a name in double quotes, found: " + quoted);
-        const auto substitution = options_.substitutions.find(match[1].str());
-        return substitution == options_.substitutions.end() ? match[1].str() : substitution->second;
+        const std::string name = quoted.substr(1, quoted.size() - 2);
+        const auto substitution = options_.substitutions.find(name);
+        return substitution == options_.substitutions.end() ? name : substitution->second;
     }
 
     const ShaderLibrary& library_;
@@ -150,23 +211,9 @@ ExpandedShader expandShader(const ShaderLibrary& library, const std::string& pat
 }
 
 std::string locatedLog(const std::string& log, const std::vector<std::string>& files) {
-    // Mesa "1:12(5): error:", NVIDIA "1(12) : error", others "ERROR: 1:12:".
-    static const std::regex place(
-        R"(^(ERROR: |WARNING: )?(\d+)(?::(\d+)\(\d+\)|\((\d+)\)|:(\d+)):?\s*:?\s*)");
     std::istringstream lines(log);
-    std::string line;
     std::string located;
-    while (std::getline(lines, line)) {
-        std::smatch match;
-        if (std::regex_search(line, match, place)) {
-            const std::size_t number = std::stoul(match[2].str());
-            const std::string lineNumber = match[3].str() + match[4].str() + match[5].str();
-            if (number < files.size())
-                line =
-                    files[number] + ":" + lineNumber + ": " + match[1].str() + match.suffix().str();
-        }
-        located += line + "\n";
-    }
+    for (std::string line; std::getline(lines, line);) located += locatedLine(line, files) + "\n";
     if (!located.empty()) located.pop_back();
     return located;
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "demo/demo_window.h"
@@ -77,6 +78,21 @@ TEST(ShadowRun, AutomaticSizeFollowsSlopeAndSoftness) {
         EXPECT_LE(run.chosen().resolution, c / radius * 1.72) << radius;
         EXPECT_EQ(run.chosen().minRadiusUv, 0);
         EXPECT_FALSE(run.chosen().reason.empty());
+    }
+}
+
+// The renderer's shaders and the controller each have the formula, since neither knows the other.
+TEST(ShadowRun, RendererAndControllerMeanTheSameFootprint) {
+    std::mt19937_64 random(1);
+    const auto number = [&] { return static_cast<float>(random() >> 40) * 0x1p-23F - 1; };
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec2 x(number(), number());
+        const glm::vec2 y =
+            i % 2 == 0 ? glm::vec2(number(), number()) : x * number();  // and degenerate ones
+        const float expected = resolution_controller::pixelFootprint(
+            {.dudx = x.x, .dvdx = x.y, .dudy = y.x, .dvdy = y.y});
+        EXPECT_NEAR(renderer::f32::pixelFootprint(x, y), expected,
+                    2e-3F * glm::length(glm::vec2(glm::length(x), glm::length(y))));
     }
 }
 

@@ -69,7 +69,8 @@ TEST(DepthPass, PlateAndGroundHaveTheirAnalyticDepth) {
                     std::max(std::abs(onPlate.x), std::abs(onPlate.z)) - tests::kPlateHalfWidth;
                 const double texelM = frame.window().extentM / n;
                 if (std::abs(edge) < 2 * texelM) continue;  // the rasteriser decides there
-                const double expected = edge < 0 ? plateDepth : std::clamp(depthAt(u, v, 0), 0.0, 1.0);
+                const double expected =
+                    edge < 0 ? plateDepth : std::clamp(depthAt(u, v, 0), 0.0, 1.0);
                 // float32 depth, and vertices snapped to 1/256 texel on planes that fall by up
                 // to 1.4 a map edge.
                 EXPECT_NEAR(map.at(i, j), expected, 1e-6 + 1.4 / 256 / n) << i << " " << j;
@@ -166,7 +167,8 @@ TEST(Lookup, PenumbraOfAStraightEdgeIsTheDiscsProfile) {
     constexpr double kRadius = 0.03;
     for (const float turn : {7.0F, 31.0F}) {
         renderer::Renderer frame(
-            gl(), tests::edgeScene(turn, {.azimuthDeg = 20, .elevationDeg = 60, .mapTurnDeg = 0}), 320, 180);
+            gl(), tests::edgeScene(turn, {.azimuthDeg = 20, .elevationDeg = 60, .mapTurnDeg = 0}),
+            320, 180);
         for (const int n : {128, 256, 512, 1024}) {
             frame.render(
                 {.technique = disc(), .resolution = n, .radiusUv = static_cast<float>(kRadius)});
@@ -212,8 +214,9 @@ double edgeWidth(const std::vector<std::pair<double, double>>& samples) {
 TEST(Lookup, SoftnessDoesNotDependOnN) {
     constexpr double kRadius = 0.03;
     const float turn = 23;
-    renderer::Renderer frame(gl(), tests::edgeScene(turn, {.azimuthDeg = 20, .elevationDeg = 60, .mapTurnDeg = 0}),
-                             320, 180);
+    renderer::Renderer frame(
+        gl(), tests::edgeScene(turn, {.azimuthDeg = 20, .elevationDeg = 60, .mapTurnDeg = 0}), 320,
+        180);
     for (const int n : {116, 200, 333, 512, 1024, 1500}) {
         frame.render(
             {.technique = disc(), .resolution = n, .radiusUv = static_cast<float>(kRadius)});
@@ -228,7 +231,8 @@ TEST(Lookup, EdgeRippleAtTheStudysSlopeStaysBelowItsLimit) {
     const int n = static_cast<int>(std::lround(3.47 / kRadius));
     for (const float turn : {1.5F, 4.0F, 12.0F, 40.0F}) {
         renderer::Renderer frame(
-            gl(), tests::edgeScene(turn, {.azimuthDeg = 0, .elevationDeg = 70, .mapTurnDeg = 0}), 480, 270);
+            gl(), tests::edgeScene(turn, {.azimuthDeg = 0, .elevationDeg = 70, .mapTurnDeg = 0}),
+            480, 270);
         frame.render(
             {.technique = disc(), .resolution = n, .radiusUv = static_cast<float>(kRadius)});
         double low = 0;
@@ -319,6 +323,23 @@ TEST(Frame, ExtremeSettingsGiveFiniteVisibilityInTheUnitRange) {
                     for (const float v : visibility.values) EXPECT_TRUE(v >= 0 && v <= 1) << v;
                 }
     }
+}
+
+// At 16 texels over a few metres every texel is many pixels wide.
+TEST(Lookup, LeastRadiusEnlargesTheKernelWhereTexelsShow) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 240, 135);
+    frame.render({.technique = disc(), .resolution = 16, .radiusUv = 0.1F});
+    const FloatImage wide = frame.readVisibility();
+    frame.render({.technique = disc(), .resolution = 16, .radiusUv = 0.01F, .minRadiusUv = 0.1F});
+    // But for a few pixels that see a surface edge-on.
+    tests::expectImagesAgree("least_radius", frame.readVisibility(), wide,
+                             {.most = 1, .often = 0, .shareBeyondOften = 0.001});
+    // And not where the map is finer than the screen.
+    frame.resize(24, 13);
+    frame.render({.technique = disc(), .resolution = 2048, .radiusUv = 0.01F});
+    const FloatImage narrow = frame.readVisibility();
+    frame.render({.technique = disc(), .resolution = 2048, .radiusUv = 0.01F, .minRadiusUv = 0.1F});
+    tests::expectImagesAgree("least_radius_unseen", frame.readVisibility(), narrow, {});
 }
 
 TEST(Frame, RefusesSettingsOutOfRange) {
