@@ -92,12 +92,14 @@ struct HeadlessContext::Handle {
 #endif
         attributes.push_back(EGL_NONE);
         context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
-        if (context == EGL_NO_CONTEXT) {
-            const std::string reason = "no OpenGL 4.5 core context, " + eglErrorText();
+        if (context == EGL_NO_CONTEXT)
+            throw std::runtime_error("no OpenGL 4.5 core context, " + eglErrorText());
+        try {
+            makeCurrent();
+        } catch (...) {
             release();
-            throw std::runtime_error(reason);
+            throw;
         }
-        makeCurrent();
     }
     ~Handle() {
         release();
@@ -112,15 +114,14 @@ struct HeadlessContext::Handle {
     }
 
   private:
+    // The display stays as it is: EGL hands the same one to every context of the process, and
+    // terminating it would take the others down too.
     void release() {
-        if (display == EGL_NO_DISPLAY) return;
-        if (context != EGL_NO_CONTEXT) {
-            if (eglGetCurrentContext() == context)
-                eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-            eglDestroyContext(display, context);
-        }
-        eglTerminate(display);
-        display = EGL_NO_DISPLAY;
+        if (context == EGL_NO_CONTEXT) return;
+        if (eglGetCurrentContext() == context)
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display, context);
+        context = EGL_NO_CONTEXT;
     }
 };
 

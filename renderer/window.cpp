@@ -55,11 +55,7 @@ Window::Window(const std::string& title, int widthPx, int heightPx)
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
 #endif
     GLFWwindow* window = glfwCreateWindow(widthPx, heightPx, title.c_str(), nullptr, nullptr);
-    if (window == nullptr) {
-        const std::string reason = lastGlfwError();
-        glfwTerminate();
-        throw std::runtime_error("window: " + reason);
-    }
+    if (window == nullptr) throw std::runtime_error("window: " + lastGlfwError());
     handle_->window = window;
     glfwMakeContextCurrent(window);
     glfwSetWindowUserPointer(window, handle_.get());
@@ -72,8 +68,8 @@ Window::Window(const std::string& title, int widthPx, int heightPx)
 }
 
 Window::~Window() {
+    // GLFW itself stays up for the process's life: it belongs to every window.
     glfwDestroyWindow(handle_->window);
-    glfwTerminate();
 }
 
 bool Window::closeWanted() const {
