@@ -76,7 +76,7 @@ std::string flagText(const ConditionResult& r) {
 }
 
 Design rerunDesign(const Design& design, std::size_t condition) {
-    const Condition& c = conditions(design).at(condition);
+    const Condition c = conditions(design).at(condition);
     Design rerun = design;
     rerun.name = design.name + "-rerun";
     rerun.artifactPx = {c.artifactPx};
