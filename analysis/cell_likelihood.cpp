@@ -63,7 +63,7 @@ void LocationCurve::setInterval(double centre, double halfWidth, double beta) {
     const double units = halfWidth * beta * kLn10;
     const int wanted = kFewestPoints + static_cast<int>(kPointsPerUnit * std::min(units, 1e3));
     const auto n = static_cast<std::size_t>(std::min(wanted, kMostPoints));
-    if (nodes_.size() == n) return;
+    if (nodes_.size() >= n) return;  // never fewer than before: see the header
     nodes_.resize(n);
     cosines_.resize(n * n);
     for (std::size_t i = 0; i < n; ++i) {

@@ -48,7 +48,8 @@ class LocationCurve {
     };
 
     /// Sets the interval, centre +- halfWidth (> 0), and the number of points on it by its width in
-    /// units of the curve's steepness: the error is below 1e-4 per trial.
+    /// units of the curve's steepness: the error is below 1e-4 per trial. The number only ever
+    /// grows, so that a search that adapts the interval again and again settles.
     void setInterval(double centre, double halfWidth, double beta);
     /// One pass over the trials at the points of the interval.
     void tabulate(const CellTrials& cell, const Curve& curve);

@@ -36,8 +36,8 @@
 
 namespace analysis {
 
-inline constexpr double kLapseLimit = 0.15;      ///< upper bound of the lapse rate
-inline constexpr double kLapseFloor = 1e-6;      ///< keeps ln P finite where nobody lapsed
+inline constexpr double kLapseLimit = 0.15;  ///< upper bound of the lapse rate
+inline constexpr double kLapseFloor = 0.001;
 inline constexpr double kLapsePriorB = 20;       ///< Beta(1, 20)
 inline constexpr double kBetaPriorCentre = 3.5;  ///< Kreuzer section 4.3
 inline constexpr double kBetaPriorLnSd = 0.5;    ///< chosen weak: 95 % of the prior in 1.3 .. 9.3

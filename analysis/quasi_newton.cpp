@@ -31,6 +31,7 @@ Descent descend(const Objective& objective, const Eigen::VectorXd& start,
     for (int taken = 0; taken < mostSteps; ++taken) {
         const Eigen::VectorXd direction = -inverseHessian * gradient;
         at.decrement = -direction.dot(gradient);
+        if (taken == 0) at.firstDecrement = at.decrement;
         at.converged = at.decrement < tolerance;
         if (at.converged) return at;
         double length = 1;

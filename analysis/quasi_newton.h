@@ -17,7 +17,8 @@ using Objective = std::function<double(const Eigen::VectorXd&, Eigen::VectorXd*)
 struct Descent {
     Eigen::VectorXd x;
     double value = 0;
-    double decrement = 0;  ///< g' H g: about twice the fall in value still to come
+    double decrement = 0;       ///< g' H g: about twice the fall in value still to come
+    double firstDecrement = 0;  ///< the same at the start
     bool converged = false;
     bool blocked = false;  ///< stopped where the function cannot be evaluated further on
 };

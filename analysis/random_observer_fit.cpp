@@ -27,7 +27,8 @@ constexpr double kZeroSpread = 1e-4;  // log10 units: 0.02 % of r
 constexpr double kBoundAngle = 0.02;  // lapse within 6e-5 of the bound
 constexpr int kMostRounds = 40;       // of adapting the points and climbing
 constexpr int kFullRounds = 6;
-constexpr double kSettled = 0.01;  // a round that moves less, scaled, is the last
+// A round that starts this near to its maximum (.01 standard errors) is the last.
+constexpr double kSettled = 1e-4;
 constexpr double kHalfPi = 1.57079632679489662;
 
 // Scaled free coordinates <-> all coordinates.
@@ -196,8 +197,7 @@ RandomObserverFit fitRandomObservers(const Model& model, const ModelParameters& 
         }
         const VectorXd from = picked(x, scale, free);
         const Descent descent = descend(objective, from, inverseHessian, kDecrement);
-        const bool settled =
-            descent.converged && (descent.x - from).lpNorm<Eigen::Infinity>() < kSettled;
+        const bool settled = descent.converged && descent.firstDecrement < kSettled;
         // Adapting and climbing may chase each other; half steps end that.
         const double share = !settled && round >= kFullRounds ? 0.5 : 1.0;
         x = placed(x, from + share * (descent.x - from), scale, free);

@@ -93,7 +93,7 @@ RandomObserverFit fit(const Study& study, MatrixXd design, double criterion, Fit
     if (curve) {
         start.parameters.beta = curve->beta;
         // Off the bounds, where the likelihood is level in its coordinates.
-        start.parameters.lapse = std::clamp(curve->lapse, 0.001, 0.149);
+        start.parameters.lapse = std::clamp(curve->lapse, 0.005, 0.145);
         if (options.estimateTau) start.parameters.tau = std::max(0.01, curve->tau);
         if (options.estimateOmega) start.parameters.omega = std::max(0.01, curve->omega);
     }
@@ -143,7 +143,8 @@ void testTheLaw(const Study& study, double criterion, const MatrixXd& design, co
     result.kappa = linearEstimate(*result.sizeFit, unitVector(design.cols(), design.cols() - 1));
     result.kappa->value += 1;
     if (!narrow.converged || !wide.fit.converged) {
-        notices.push_back("test of kappa = 1: left out, since a fit did not converge");
+        noteConvergence(narrow, "test of kappa = 1 left out", notices);
+        noteConvergence(wide.fit, "test of kappa = 1 left out", notices);
         return;
     }
     result.kappaTest = ratioTest(narrow, wide.fit, 1);
