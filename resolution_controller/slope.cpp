@@ -84,7 +84,8 @@ Slope atCriterion(const Slope& slope, double criterion) {
 }
 
 double contrastFactor(double contrast, double exponent) noexcept {
-    if (!(contrast >= 0 && contrast <= 1) || !std::isfinite(exponent)) return 1;
+    if (exponent == 0 || !std::isfinite(exponent)) return 1;
+    if (!(contrast >= 0 && contrast <= 1)) return 1;
     const double e = std::clamp(exponent, -kLargestContrastExponent, kLargestContrastExponent);
     return portablePower(std::max(contrast, kLeastContrast), e);
 }
