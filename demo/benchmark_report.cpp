@@ -25,6 +25,19 @@ std::string formatted(const char* format, double value) {
     return text;
 }
 
+/// "auto 368" or "512": the first column that tells rows of a scene apart.
+std::string sizeOf(const BenchmarkCell& cell) {
+    return (cell.chosen.automatic ? "auto " : "") + std::to_string(cell.chosen.resolution);
+}
+
+/// The scene, and the technique where there are several.
+std::string groupName(const BenchmarkResult& result, const BenchmarkGroup& group) {
+    const bool one = std::all_of(
+        result.groups.begin(), result.groups.end(),
+        [&](const BenchmarkGroup& other) { return other.technique == group.technique; });
+    return one ? group.scene : group.scene + ", " + std::string(group.technique->name);
+}
+
 std::string nameOf(const BenchmarkCell& cell) {
     return cell.chosen.automatic ? "auto" : "fixed " + std::to_string(cell.chosen.resolution);
 }
@@ -44,16 +57,13 @@ void addTimeTable(records::HtmlPage& page, const BenchmarkResult& result) {
     for (const BenchmarkGroup& group : result.groups)
         for (const BenchmarkCell& cell : group.cells) {
             const double speed = group.reference().frameMs.median / cell.frameMs.median;
-            rows.push_back({group.scene, std::string(group.technique->name), nameOf(cell),
-                            std::to_string(cell.chosen.resolution),
+            rows.push_back({groupName(result, group), sizeOf(cell),
                             formatted("%.1f", static_cast<double>(cell.mapBytes) / (1 << 20)),
                             withSpread(cell.frameMs), formatted("%.2f", speed),
                             passText(cell, renderer::Pass::depth),
                             passText(cell, renderer::Pass::lookup)});
         }
-    page.table({"scene", "technique", "size", "N", "map MiB", "frame ms", "speed", "depth ms",
-                "lookup ms"},
-               rows,
+    page.table({"scene", "N", "map MiB", "frame ms", "speed", "depth ms", "lookup ms"}, rows,
                "Medians with quartiles. Speed is against the reference, the largest fixed map.");
 }
 
@@ -63,22 +73,21 @@ void addErrorTable(records::HtmlPage& page, const BenchmarkResult& result) {
         for (const BenchmarkCell& cell : group.cells) {
             if (cell.isReference) continue;
             const VisibilityError& e = cell.error;
-            rows.push_back({group.scene, std::string(group.technique->name), nameOf(cell),
-                            std::to_string(cell.chosen.resolution), formatted("%.4f", e.rmse),
+            rows.push_back({groupName(result, group), sizeOf(cell), formatted("%.4f", e.rmse),
                             formatted("%.4f", e.p95), formatted("%.3f", e.most),
                             formatted("%+.5f", e.bias), formatted("%.1f", 100 * e.shareBeyondLevel),
                             formatted("%.1f", 100 * e.shareBeyond2Percent),
                             formatted("%.1f", 100 * e.shareBeyond5Percent),
                             std::to_string(e.penumbraPixels)});
         }
-    page.table({"scene", "technique", "size", "N", "RMSE", "p95", "max", "bias", "% > 1/255",
-                "% > .02", "% > .05", "pixels"},
-               rows,
-               "Resolution error: visibility against the reference, the largest fixed map, over "
-               "penumbra pixels. Bias "
-               "is positive where light leaks into shadow; then the shares of these pixels that "
-               "are off by more than "
-               "one 8-bit level, .02 and .05.");
+    page.table(
+        {"scene", "N", "RMSE", "p95", "max", "bias", "% > 1/255", "% > .02", "% > .05", "pixels"},
+        rows,
+        "Resolution error: visibility against the reference, the largest fixed map, over "
+        "penumbra pixels. Bias "
+        "is positive where light leaks into shadow; then the shares of these pixels that "
+        "are off by more than "
+        "one 8-bit level, .02 and .05.");
 }
 
 void addPictures(records::HtmlPage& page, const fs::path& folder, const BenchmarkGroup& group) {
@@ -127,8 +136,7 @@ void addPictures(records::HtmlPage& page, const fs::path& folder, const Benchmar
 void addFit(records::HtmlPage& page, const fs::path& folder) {
     const records::Slope slope = records::readSlope(folder / "slope.json");
     page.heading("The slope that chose the sizes");
-    page.paragraph(records::describe(slope) + ". " + std::to_string(slope.observers) +
-                   " observers, " + std::to_string(slope.trials) + " trials.");
+    page.paragraph(records::describe(slope) + ".");
     page.paragraph(slope.method);
     std::vector<fs::path> figures;
     for (const auto& entry : fs::directory_iterator(folder))

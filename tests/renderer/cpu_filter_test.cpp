@@ -3,6 +3,7 @@
 // GPU.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -327,6 +328,41 @@ TEST(PcfDisc, ProfileOfAStraightEdgeIsTheDiscsAtEveryN) {
                     << "N " << n << " angle " << angle;
             }
         }
+}
+
+// The median over sub-texel phases: a single phase may happen to be right.
+TEST(Technique, ErrorFallsAsNGrows) {
+    constexpr double kRadius = 0.05;
+    constexpr double kAngle = 17;
+    const double s = std::sin(kAngle * kPi / 180);
+    const double c = std::cos(kAngle * kPi / 180);
+    for (const Technique& technique : renderer::techniques()) {
+        if (!technique.holds(Property::errorFallsWithN)) continue;
+        double last = 1;
+        for (const int n : {48, 96, 192, 384}) {
+            std::vector<double> errors;
+            for (const double phase : {0.03, 0.17, 0.31, 0.46, 0.58, 0.72, 0.91}) {
+                const Map map = halfPlane(n, kAngle, phase);
+                double sum = 0;
+                int count = 0;
+                for (double along = -0.2; along < 0.2; along += 0.013)
+                    for (double x = -1.19; x < 1.2; x += 0.05, ++count) {
+                        const double distance = x * kRadius + phase / n;
+                        const double v = evaluate(technique, map,
+                                                  receiverAt(0.5 + along * c - s * distance,
+                                                             0.5 + along * s + c * distance, 0.5),
+                                                  kRadius);
+                        const double truth =
+                            technique.soft ? tests::discProfile(x) : (x > 0 ? 1 : 0);
+                        sum += (v - truth) * (v - truth);
+                    }
+                errors.push_back(std::sqrt(sum / count));
+            }
+            std::nth_element(errors.begin(), errors.begin() + 3, errors.end());
+            EXPECT_LT(errors[3], 0.95 * last) << technique.name << " N " << n;
+            last = errors[3];
+        }
+    }
 }
 
 }  // namespace
