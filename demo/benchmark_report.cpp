@@ -27,7 +27,7 @@ std::string formatted(const char* format, double value) {
 
 /// "auto 368" or "512": the first column that tells rows of a scene apart.
 std::string sizeOf(const BenchmarkCell& cell) {
-    return (cell.chosen.automatic ? "auto " : "") + std::to_string(cell.chosen.resolution);
+    return (cell.chosen.automatic ? "auto\u00a0" : "") + std::to_string(cell.chosen.resolution);
 }
 
 /// The scene, and the technique where there are several.
@@ -42,10 +42,15 @@ std::string nameOf(const BenchmarkCell& cell) {
     return cell.chosen.automatic ? "auto" : "fixed " + std::to_string(cell.chosen.resolution);
 }
 
+/// Three digits or more, no more width than they need.
+std::string milliseconds(double ms) {
+    return formatted(ms < 10 ? "%.2f" : (ms < 100 ? "%.1f" : "%.0f"), ms);
+}
+
 std::string withSpread(const Spread& spread) {
     if (spread.count == 0) return "n/a";
-    return formatted("%.1f", spread.median) + " [" + formatted("%.1f", spread.p25) + ", " +
-           formatted("%.1f", spread.p75) + "]";
+    return milliseconds(spread.median) + " [" + milliseconds(spread.p25) + ", " +
+           milliseconds(spread.p75) + "]";
 }
 
 std::string passText(const BenchmarkCell& cell, renderer::Pass pass) {
