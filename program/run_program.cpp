@@ -10,6 +10,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "program/build_info.h"
 
@@ -50,6 +51,16 @@ std::string nameOf(const CLI::App& app, int argc, char** argv) {
     return std::filesystem::path(argv[0]).filename().string();
 }
 
+// A misspelt option is what the user must hear of first, also where a required one is missing
+// besides: CLI11 finds the missing one first.
+std::string usageSentence(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> unknown = app.remaining();
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !unknown.empty()) {
+        return CLI::ExtrasError(app.get_name(), unknown).what();
+    }
+    return error.what();
+}
+
 }  // namespace
 
 int run(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
@@ -67,7 +78,7 @@ int run(CLI::App& app, int argc, char** argv, const std::function<void()>& body)
         flushStandardOutput();
         return kSuccess;
     } catch (const CLI::ParseError& error) {
-        return report(name, std::string(error.what()) + " (see --help)", kBadUsage);
+        return report(name, usageSentence(app, error) + " (see --help)", kBadUsage);
     } catch (const std::bad_alloc&) {
         return report(name, "out of memory", kFailure);
     } catch (const std::exception& error) {

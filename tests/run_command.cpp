@@ -35,7 +35,8 @@ std::string contents(std::FILE* file) {
 CommandResult runProgram(const std::string& program, const std::vector<std::string>& arguments) {
     const std::string path = std::string(STAIRWELL_BIN_DIR) + "/" + program;
     std::vector<char*> argv{const_cast<char*>(path.c_str())};
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
 
     const TemporaryFile out = temporaryFile(), err = temporaryFile();

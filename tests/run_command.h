@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs one of our programs as its user would, for tests: by argument list (no shell), with standard output and
-// error captured.
+// Runs one of our programs as its user would, for tests: by argument list (no shell), with standard
+// output and error captured.
 #pragma once
 
 #include <string>

@@ -19,7 +19,8 @@ namespace {
 using testing::HasSubstr;
 
 // Runs a program that must succeed, and shows what it said where it does not.
-tests::CommandResult succeed(const std::string& program, const std::vector<std::string>& arguments) {
+tests::CommandResult succeed(const std::string& program,
+                             const std::vector<std::string>& arguments) {
     const tests::CommandResult result = tests::runProgram(program, arguments);
     EXPECT_EQ(result.exitCode, 0) << program << ": " << result.err;
     return result;
@@ -50,7 +51,8 @@ TEST(Pipeline, RecoversTheSimulatedPopulation) {
         EXPECT_LE(slope.c.ci95->low, each.c) << records::describe(slope);
         EXPECT_GE(slope.c.ci95->high, each.c) << records::describe(slope);
         // An interval that covers because it is useless is no recovery: 10 observers who differ by
-        // .1 log10 leave a standard error of about 8 %, so the interval spans well under a factor 2.
+        // .1 log10 leave a standard error of about 8 %, so the interval spans well under a
+        // factor 2.
         EXPECT_LT(slope.c.ci95->high / slope.c.ci95->low, 2.0);
         EXPECT_EQ(slope.observers, 10);
     }
@@ -65,18 +67,22 @@ TEST(Pipeline, SameStudyGivesTheSameSlopeToTheLastDigit) {
 
 TEST(Pipeline, LargerSlopeAsksForALargerMap) {
     const tests::TemporaryFolder folder;
+    records::Slope slope = fitted(folder.path(), "c=3", "5");
     const auto sizeAt = [&](double c) {
-        records::Slope slope = fitted(folder.path(), "c=3", "5");
         slope.c = {.estimate = c, .ci95 = records::Interval{c * 0.9, c * 1.1}};
-        const std::filesystem::path file = folder.path() / "edited.json", stats = folder.path() / "stats.json";
+        const std::filesystem::path file = folder.path() / "edited.json",
+                                    stats = folder.path() / "stats.json";
         records::writeSlope(file, slope);
-        succeed("shadow_demo", {"--headless", "--scene", "planar_occluder", "--technique", "pcf_disc", "--resolution", "auto",
-                                "--slope", file.string(), "--frames", "1", "--width", "160", "--height", "90",
-                                "--stats", stats.string()});
+        // So soft that a texel stays larger than a pixel: the slope alone decides.
+        succeed("shadow_demo",
+                {"--headless", "--scene", "planar_occluder", "--technique", "pcf_disc",
+                 "--resolution", "auto", "--radius-uv", "0.02", "--slope", file.string(),
+                 "--frames", "1", "--width", "320", "--height", "180", "--stats", stats.string()});
         return nlohmann::json::parse(std::ifstream(stats)).at("resolution").get<int>();
     };
     const int small = sizeAt(1.5), large = sizeAt(6);
-    // N = c / r_uv, rounded up to a level (ratio at most 2): four times the slope is at least twice the size.
+    EXPECT_GE(small, 75);  // N = c / r_uv, rounded up to a level
+    // Levels are at most a factor 2 apart: four times the slope is at least twice the size.
     EXPECT_GE(large, 2 * small);
 }
 
