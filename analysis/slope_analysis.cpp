@@ -140,8 +140,11 @@ void testTheLaw(const Study& study, double criterion, const MatrixXd& design, co
     const Fitted wide{design, fitFrom(law, study, design, criterion, kForRatio)};
     result.sizeFit = fitFrom(wide, study, design, criterion);
     noteConvergence(*result.sizeFit, "fit of kappa", notices);
-    result.kappa = linearEstimate(*result.sizeFit, unitVector(design.cols(), design.cols() - 1));
-    result.kappa->value += 1;
+    if (result.sizeFit->converged) {
+        result.kappa =
+            linearEstimate(*result.sizeFit, unitVector(design.cols(), design.cols() - 1));
+        result.kappa->value += 1;
+    }
     if (!narrow.converged || !wide.fit.converged) {
         noteConvergence(narrow, "test of kappa = 1 left out", notices);
         noteConvergence(wide.fit, "test of kappa = 1 left out", notices);

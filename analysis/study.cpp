@@ -268,13 +268,15 @@ Study studyOf(std::span<const TrialTable> tables) {
 }
 
 Study loadStudy(std::span<const std::filesystem::path> paths) {
-    std::set<std::filesystem::path> files;
+    std::map<std::filesystem::path, std::filesystem::path> files;  // canonical, as given
     for (const std::filesystem::path& path : paths) {
         const auto found = records::findTrialTables(path);
-        files.insert(found.begin(), found.end());
+        // One file reached by two spellings of its path is one table.
+        for (const std::filesystem::path& file : found)
+            files.try_emplace(std::filesystem::weakly_canonical(file), file);
     }
     std::vector<TrialTable> tables;
-    for (const std::filesystem::path& file : files) tables.push_back(records::readTrialTable(file));
+    for (const auto& [canonical, file] : files) tables.push_back(records::readTrialTable(file));
     Study study = studyOf(tables);
     study.pxPerDeg = meanPxPerDeg(study.files);
     return study;

@@ -25,13 +25,19 @@ Json parametersJson(const DemoStats& stats) {
     return json;
 }
 
+Json encodingJson(resolution_controller::Encoding encoding) {
+    using resolution_controller::Encoding;
+    if (encoding == Encoding::unknown) return {};
+    return encoding == Encoding::srgb ? "srgb" : "code";
+}
+
 Json slopeJson(const DemoStats& stats) {
     namespace rc = resolution_controller;
     const rc::Slope& slope = stats.slope.slope;
     return {{"c", slope.c},
             {"criterion", slope.criterion},
             {"task", slope.task == rc::Task::twoAfc ? "2afc" : "yes_no"},
-            {"encoding", slope.encoding == rc::Encoding::srgb ? "srgb" : "code"},
+            {"encoding", encodingJson(slope.encoding)},
             {"beta", slope.beta},
             {"text", stats.slope.text},
             {"file", stats.slopeFile.empty() ? Json() : Json(stats.slopeFile)},

@@ -19,13 +19,18 @@ constexpr int kSampleSpacing = 4;
 // The controller lowers after 45 frames by default; an orbiting camera is not waited for.
 constexpr int kMostSettlingFrames = 64;
 
+rc::Encoding toController(const std::optional<records::Encoding>& encoding) {
+    if (!encoding) return rc::Encoding::unknown;
+    return *encoding == records::Encoding::srgb ? rc::Encoding::srgb : rc::Encoding::code;
+}
+
 rc::Slope toController(const records::Slope& slope) {
     return {.c = slope.c.estimate,
             .criterion = slope.criterion,
             .task = slope.task == records::Task::twoAfc ? rc::Task::twoAfc : rc::Task::yesNo,
-            .encoding =
-                slope.encoding == records::Encoding::srgb ? rc::Encoding::srgb : rc::Encoding::code,
-            .beta = slope.beta};
+            .encoding = toController(slope.encoding),
+            .beta = slope.beta,
+            .c90 = slope.c90.estimate};
 }
 
 }  // namespace
@@ -52,6 +57,10 @@ LoadedSlope loadSlope(const std::optional<std::filesystem::path>& file) {
     } else {
         loaded.text = rc::describe(loaded.slope) + ", as published; no slope file was given";
     }
+    if (loaded.slope.encoding == rc::Encoding::unknown)
+        loaded.notes.push_back(
+            "the slope's tables do not say whether they were filtered in light or in code values; "
+            "shadows here are filtered in light");
     if (loaded.slope.encoding == rc::Encoding::code)
         loaded.notes.push_back(
             "the slope was measured with filtering in code values; shadows here are filtered in "
@@ -90,14 +99,14 @@ ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
     frameSettings_.validate(info);
 }
 
-void ShadowRun::step(renderer::PassClock* clock) {
+void ShadowRun::step(renderer::PassClock* clock, bool cut) {
     if (!settings_.resolution) {
         // What joins renderer and controller: the last frame's demand chooses this frame's size.
         const auto c = static_cast<float>(settings_.slope.c);
         rc::DemandHistogram histogram;
         for (const float footprint : frame_.footprintsUv(kSampleSpacing, frameNumber_, clock))
             if (footprint > 0) histogram.add(rc::demand(c, frameSettings_.radiusUv, footprint));
-        const rc::Decision choice = controller_.update(histogram);
+        const rc::Decision choice = controller_.update(histogram, {.cameraCut = cut});
         frameSettings_.resolution = choice.size;
         frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
 
@@ -114,13 +123,15 @@ void ShadowRun::step(renderer::PassClock* clock) {
 }
 
 int ShadowRun::settle() {
-    step();
+    step(nullptr, true);
     if (settings_.resolution) return 1;
-    constexpr int kQuietFrames = 4;
+    // A still view starts as after a cut: the map's first sizes are the way to the right one, not
+    // sizes that were shown, so nothing waits to be lowered from them.
+    constexpr int kCutFrames = 4, kQuietFrames = 4;
     int frames = 1;
     for (int quiet = 0; quiet < kQuietFrames && frames < kMostSettlingFrames; ++frames) {
         const int before = chosen_.resolution;
-        step();
+        step(nullptr, frames < kCutFrames);
         quiet = chosen_.resolution == before && chosen_.need > 0 ? quiet + 1 : 0;
         if (chosen_.need == 0 && frames > 2) break;  // nothing to go by in this view
     }

@@ -65,8 +65,9 @@ class ShadowRun {
     /// Throws std::invalid_argument for settings that renderer or controller refuse.
     ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info, const Settings& settings);
 
-    /// Draws the next frame.
-    void step(renderer::PassClock* clock = nullptr);
+    /// Draws the next frame. `cut`: the view has nothing to do with the one before, so an automatic
+    /// size moves at once, downwards too.
+    void step(renderer::PassClock* clock = nullptr, bool cut = false);
     /// Draws frames until the automatic size stays as it is; returns their number. At least one.
     int settle();
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -84,6 +84,27 @@ TEST(Pipeline, LargerSlopeAsksForALargerMap) {
     EXPECT_GE(small, 75);  // N = c / r_uv, rounded up to a level
     // Levels are at most a factor 2 apart: four times the slope is at least twice the size.
     EXPECT_GE(large, 2 * small);
+}
+
+// Real observers' tables as they are: yes/no, without sidecars, with image noise in some trials,
+// one careless observer of twelve whom the false-alarm rule must find. Nothing of the data is
+// pinned but what its description says.
+TEST(Pipeline, FitsRealTablesAsTheyAre) {
+    const char* const data = std::getenv("STAIRWELL_HUMAN_DATA");
+    if (data == nullptr) GTEST_SKIP() << "STAIRWELL_HUMAN_DATA names no folder of human trials";
+    const tests::TemporaryFolder folder;
+    const tests::CommandResult result =
+        succeed("fit_slope", {data, "--out", (folder.path() / "fit").string()});
+    const records::Slope slope = records::readSlope(folder.path() / "fit" / "slope.json");
+    EXPECT_EQ(slope.task, records::Task::yesNo);
+    EXPECT_EQ(slope.observers, 11);
+    EXPECT_THAT(result.out, HasSubstr("false alarms"));
+    EXPECT_EQ(slope.groups.size(), 9u);  // nine line angles
+    for (const records::SlopeGroup& group : slope.groups) {
+        ASSERT_TRUE(group.c.ci95.has_value()) << group.name;
+        EXPECT_LT(group.c.ci95->low, group.c.estimate) << group.name;
+        EXPECT_GT(group.c.ci95->high, group.c.estimate) << group.name;
+    }
 }
 
 }  // namespace

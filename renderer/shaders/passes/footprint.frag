@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Footprint pass: for a sparse grid of pixels, the edge of one screen pixel on the shadow map, as a fraction of the
 // map's extent. 0 where no stair-step of the map can show: sky, surfaces turned from the light, points outside the
-// map and, after a technique with a kernel, everything that is not in penumbra.
+// map and, after a technique with a kernel, everything that is not in penumbra. A penumbra narrower than a pixel falls
+// between the pixels' samples, so there every receiver counts, as it does without a kernel.
 #include "shared/blocks.glsl"
 #include "shared/receiver.glsl"
 
@@ -18,8 +19,10 @@ void main() {
     vec4 position = texelFetch(positions, pixel, 0);
     outFootprint = 0.0;
     float visibility = texelFetch(visibilities, pixel, 0).x;
-    if (position.w == 0.0 || (penumbraOnly != 0u && (visibility <= 0.0 || visibility >= 1.0))) return;
+    if (position.w == 0.0) return;
     ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
+    bool wide = penumbraOnly != 0u && max(shadow.kernel.x, shadow.kernel.y) >= receiver.footprintUv;
+    if (wide && (visibility <= 0.0 || visibility >= 1.0)) return;
     bool onMap = all(greaterThanEqual(receiver.uv, vec2(0.0))) && all(lessThanEqual(receiver.uv, vec2(1.0)));
     if (receiver.facesLight && onMap) outFootprint = receiver.footprintUv;
 }
