@@ -65,8 +65,9 @@ class Renderer {
     /// For one pixel in spacing x spacing of the last frame: the edge of one screen pixel on the
     /// map, as a fraction of its extent; 0 where no stair-step of the map can show. After a
     /// technique without a kernel, that is sky, surfaces turned from the light and points outside
-    /// the map; after one with a kernel, everything that is not in penumbra. Which pixel of each
-    /// cell is taken rotates with `phase`. Empty before the first frame. Waits for the GPU.
+    /// the map; after one with a kernel, also everything that is not in penumbra, where the
+    /// penumbra is wider than the pixel. Which pixel of each cell is taken rotates with `phase`.
+    /// Empty before the first frame. Waits for the GPU.
     std::vector<float> footprintsUv(int spacing, unsigned phase, PassClock* clock = nullptr);
 
     ByteImage readLit();          ///< sRGB codes, 3 channels
