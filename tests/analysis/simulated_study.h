@@ -21,7 +21,7 @@ struct SimulatedGroup {
 };
 
 struct StudyPlan {
-    std::string name;
+    std::string name = {};
     int observers = 10;
     std::vector<SimulatedGroup> groups = {{}};
     std::vector<double> sizes = {5, 10, 20, 30};
