@@ -7,13 +7,14 @@
 //
 //     l(y) = sum over trials of ln P(answer).
 //
-// locationTerms() gives l with two derivatives, for Newton's method. A LocationCurve holds l, and
-// its derivatives in ln beta and in the lapse rate, on an interval of y as Chebyshev series (L. N.
-// Trefethen, "Approximation Theory and Approximation Practice", 2013, chapters 3 and 4): one pass
-// over the trials, after which any number of quadrature points cost nothing but the series.
+// locationTerms() gives l with two derivatives, for Newton's method; CellPoints gives l and its
+// first derivatives in y, ln beta and the lapse rate at many locations in one pass over the trials,
+// for quadrature. (A Chebyshev series through fewer locations is no cheaper and leaves ripples that
+// spoil second derivatives: where lapses are rare, ln P(no) has a kink.)
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "quest/psychometric.h"
@@ -38,30 +39,18 @@ struct LocationTerms {
 };
 LocationTerms locationTerms(const CellTrials& cell, double y, const Curve& curve);
 
-class LocationCurve {
-  public:
-    struct Point {
-        double value;      ///< l
-        double perY;       ///< dl/dy
-        double perLnBeta;  ///< dl/d ln beta
-        double perLapse;   ///< dl/d lapse
-    };
+/// At each of the locations given to the last evaluate().
+struct CellPoints {
+    std::vector<double> value;      ///< l
+    std::vector<double> perY;       ///< dl/dy
+    std::vector<double> perLnBeta;  ///< dl/d ln beta
+    std::vector<double> perLapse;   ///< dl/d lapse
 
-    /// Sets the interval, centre +- halfWidth (> 0), and the number of points on it by its width in
-    /// units of the curve's steepness: the error is below 1e-4 per trial. The number only ever
-    /// grows, so that a search that adapts the interval again and again settles.
-    void setInterval(double centre, double halfWidth, double beta);
-    /// One pass over the trials at the points of the interval.
-    void tabulate(const CellTrials& cell, const Curve& curve);
-    /// Requires contains(y).
-    Point at(double y) const;
-    bool contains(double y) const;
+    /// Keeps its memory between calls. At least one location.
+    void evaluate(const CellTrials& cell, const Curve& curve, std::span<const double> y);
 
   private:
-    double centre_ = 0, halfWidth_ = 1;
-    std::vector<double> nodes_;                         // on [-1, 1]
-    std::vector<double> cosines_;                       // transform from values to coefficients
-    std::vector<double> value_, perLnBeta_, perLapse_;  // values, then coefficients
+    std::vector<double> factor_, hazard_, undetected_, inverse_, slope_, product_, onLapse_;
 };
 
 }  // namespace analysis

@@ -19,10 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostModeSteps = 200;
 // Newton's decrement (twice the log-likelihood still to gain) that is near enough for a centre.
 constexpr double kModeReached = 1e-6;
-// Half width of a cell's interval: this many posterior sds of its location, and a margin for the
-// way that the fixed effects go between two adaptations.
-constexpr double kIntervalSds = 5.4, kIntervalMargin = 0.06;
-constexpr int kObserverPoints = 7, kCellPoints = 7;
+constexpr std::size_t kObserverPoints = 5, kCellPoints = 7;
 
 double square(double v) {
     return v * v;
@@ -51,7 +48,8 @@ struct HermiteRule {
     std::vector<double> point, logWeight;
 };
 
-HermiteRule hermiteRule(int n) {
+HermiteRule hermiteRule(std::size_t count) {
+    const auto n = static_cast<int>(count);
     MatrixXd jacobi = MatrixXd::Zero(n, n);
     for (int j = 1; j < n; ++j) jacobi(j, j - 1) = jacobi(j - 1, j) = std::sqrt(j);
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(jacobi);
@@ -123,7 +121,6 @@ MarginalLikelihood::MarginalLikelihood(const Model& model) : model_(model) {
             values->assign(cells, 0.0);
         }
         points_.push_back(points);
-        curves_.emplace_back(cells);
         cellLocation_.emplace_back(cells, 0.0);
         observerEffect_.push_back(0.0);
     }
@@ -211,10 +208,6 @@ void MarginalLikelihood::placePoints(std::size_t i, const ModelParameters& at) {
         const double t = 1 / (1 + square(at.omega) * points.curvature[k]);
         points.cellSd[k] = std::sqrt(t);
         points.cellSlope[k] = -at.tau * at.omega * points.curvature[k] * t;
-        const double sd = std::sqrt(square(at.omega) * t + square(at.tau * points.observerSd * t));
-        curves_[i][k].setInterval(location(i, k, at, points.observer, points.cell[k]),
-                                  kIntervalSds * sd + kIntervalMargin,
-                                  curve(i, cells[k].condition, at).beta);
     }
 }
 
@@ -240,43 +233,45 @@ double MarginalLikelihood::integrate(std::size_t i, const ModelParameters& at, V
     const Points& points = points_[i];
     const HermiteRule& outer = observerRule();
     const HermiteRule& inner = cellRule();
-    std::array<double, kObserverPoints> logOuter{};
+    std::array<double, kObserverPoints> logOuter{}, bigU{};
     for (std::size_t a = 0; a < logOuter.size(); ++a) {
-        const double bigU = points.observer + points.observerSd * outer.point[a];
-        logOuter[a] = outer.logWeight[a] + std::log(points.observerSd) - 0.5 * square(bigU);
+        bigU[a] = points.observer + points.observerSd * outer.point[a];
+        logOuter[a] = outer.logWeight[a] + std::log(points.observerSd) - 0.5 * square(bigU[a]);
     }
     // Per cell and outer point: means over the inner points.
     struct Mean {
         double y = 0, perY = 0, perYN = 0, perLnBeta = 0, perLapse = 0;
     };
     std::vector<std::array<Mean, kObserverPoints>> means(gradient ? cells.size() : 0);
+    std::array<double, kObserverPoints * kCellPoints> bigN{}, y{};
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        LocationCurve& l = curves_[i][k];
-        l.tabulate(cells[k].trials, curve(i, cells[k].condition, at));
         const double centre = location(i, k, at, 0, 0);
         for (std::size_t a = 0; a < logOuter.size(); ++a) {
-            const double fromMode = points.observerSd * outer.point[a];
-            const double bigU = points.observer + fromMode;
-            std::array<double, kCellPoints> logInner{}, bigN{}, y{};
-            std::array<LocationCurve::Point, kCellPoints> at1{};
-            for (std::size_t j = 0; j < logInner.size(); ++j) {
-                bigN[j] = points.cell[k] + points.cellSlope[k] * fromMode +
+            for (std::size_t j = 0; j < kCellPoints; ++j) {
+                const std::size_t p = a * kCellPoints + j;
+                bigN[p] = points.cell[k] + points.cellSlope[k] * (bigU[a] - points.observer) +
                           points.cellSd[k] * inner.point[j];
-                y[j] = centre + at.tau * bigU + at.omega * bigN[j];
-                if (!l.contains(y[j])) return kNaN;
-                at1[j] = l.at(y[j]);
-                logInner[j] = inner.logWeight[j] + std::log(points.cellSd[k]) -
-                              0.5 * square(bigN[j]) + at1[j].value;
+                y[p] = centre + at.tau * bigU[a] + at.omega * bigN[p];
             }
-            logOuter[a] += normalise(logInner);
+        }
+        cellPoints_.evaluate(cells[k].trials, curve(i, cells[k].condition, at), y);
+        for (std::size_t a = 0; a < logOuter.size(); ++a) {
+            std::array<double, kCellPoints> weight{};
+            for (std::size_t j = 0; j < kCellPoints; ++j) {
+                const std::size_t p = a * kCellPoints + j;
+                weight[j] = inner.logWeight[j] + std::log(points.cellSd[k]) -
+                            0.5 * square(bigN[p]) + cellPoints_.value[p];
+            }
+            logOuter[a] += normalise(weight);
             if (!gradient) continue;
             Mean& mean = means[k][a];
-            for (std::size_t j = 0; j < logInner.size(); ++j) {
-                mean.y += logInner[j] * y[j];
-                mean.perY += logInner[j] * at1[j].perY;
-                mean.perYN += logInner[j] * at1[j].perY * bigN[j];
-                mean.perLnBeta += logInner[j] * at1[j].perLnBeta;
-                mean.perLapse += logInner[j] * at1[j].perLapse;
+            for (std::size_t j = 0; j < kCellPoints; ++j) {
+                const std::size_t p = a * kCellPoints + j;
+                mean.y += weight[j] * y[p];
+                mean.perY += weight[j] * cellPoints_.perY[p];
+                mean.perYN += weight[j] * cellPoints_.perY[p] * bigN[p];
+                mean.perLnBeta += weight[j] * cellPoints_.perLnBeta[p];
+                mean.perLapse += weight[j] * cellPoints_.perLapse[p];
             }
         }
     }
@@ -287,20 +282,18 @@ double MarginalLikelihood::integrate(std::size_t i, const ModelParameters& at, V
     const auto lapseIndex = fixedCount + model_.betaCount;
     observerEffect_[i] = 0;
     for (std::size_t a = 0; a < logOuter.size(); ++a) {
-        observerEffect_[i] +=
-            logOuter[a] * at.tau * (points.observer + points.observerSd * outer.point[a]);
+        observerEffect_[i] += logOuter[a] * at.tau * bigU[a];
     }
     for (std::size_t k = 0; k < cells.size(); ++k) {
         double perY = 0, perLnBeta = 0;
         cellLocation_[i][k] = 0;
         for (std::size_t a = 0; a < logOuter.size(); ++a) {
             const Mean& mean = means[k][a];
-            const double bigU = points.observer + points.observerSd * outer.point[a];
             cellLocation_[i][k] += logOuter[a] * mean.y;
             perY += logOuter[a] * mean.perY;
             perLnBeta += logOuter[a] * mean.perLnBeta;
             (*gradient)[lapseIndex] += logOuter[a] * mean.perLapse;
-            (*gradient)[lapseIndex + 1] += logOuter[a] * mean.perY * bigU;
+            (*gradient)[lapseIndex + 1] += logOuter[a] * mean.perY * bigU[a];
             (*gradient)[lapseIndex + 2] += logOuter[a] * mean.perYN;
         }
         const int condition = cells[k].condition;

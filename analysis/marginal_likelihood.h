@@ -22,10 +22,11 @@
 // maximum with few observers (D. R. Cox and N. Reid, J. R. Stat. Soc. B 49, 1987). Use it for
 // estimates and intervals, and the plain form for likelihood ratios between designs.
 //
-// Priors (weak): ln beta ~ N(ln 3.5, .5^2); lapse ~ Beta(1, 20) on [0, .15]. None on b, tau, omega.
+// Priors (weak): ln beta ~ N(ln 3.5, .5^2); lapse ~ Beta(1, 20) on [.001, .15]; the
+// floor keeps ln P finite where nobody lapsed. None on b, tau, omega.
 //
-// tau and omega enter through their squares and the lapse as .15 sin^2(angle), so that no
-// coordinate has a bound: an optimum at tau = 0 is a stationary point.
+// tau and omega enter through their squares and the lapse by the squared sine of an angle, so that
+// no coordinate has a bound: an optimum at tau = 0 is a stationary point.
 #pragma once
 
 #include <Eigen/Core>
@@ -86,7 +87,7 @@ class MarginalLikelihood {
     bool adapt(const Eigen::VectorXd& coordinates);
 
     /// ln of the marginal likelihood with priors; fills `gradient` (by coordinate) unless null.
-    /// NaN where the points of the last adapt() do not reach: b has moved by more than .06 or so.
+    /// NaN where it cannot be had.
     double evaluate(const Eigen::VectorXd& coordinates, LikelihoodForm form,
                     Eigen::VectorXd* gradient);
 
@@ -130,7 +131,7 @@ class MarginalLikelihood {
 
     const Model& model_;
     std::vector<Points> points_;
-    std::vector<std::vector<LocationCurve>> curves_;
+    CellPoints cellPoints_;
     std::vector<double> observerEffect_;
     std::vector<std::vector<double>> cellLocation_;
     Eigen::MatrixXd information_;

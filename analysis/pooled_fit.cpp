@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <ostream>
+#include <stdexcept>
 
 namespace analysis {
 namespace {
@@ -20,7 +21,6 @@ T deviance(const T& negativeLog) {
     return squared > kRootFloor ? T(sqrt(squared)) : T(sqrt(kRootFloor));
 }
 
-// Location of a condition: x_k' b, summed in front of a trial's other parameters.
 struct Trial {
     double strength;
     bool yes;
@@ -32,23 +32,17 @@ quest::ResponseModelOf<T> response(const Trial& trial, const T& lapse) {
     return {T(trial.gamma), lapse, T(trial.lapseGuess)};
 }
 
-// Parameter blocks: b (all of it), ln beta of the condition, lapse.
 struct TrialDeviance {
     Trial trial;
-    Eigen::RowVectorXd row;
 
     template <typename T>
-    bool operator()(T const* const* parameters, T* residual) const {
+    bool operator()(const T* log10c, const T* lnBeta, const T* lapse, T* residual) const {
         using std::exp;
-        T location(trial.strength);
-        for (Eigen::Index j = 0; j < row.size(); ++j) {
-            if (row[j] != 0) location += row[j] * parameters[0][j];
-        }
-        const T beta = exp(parameters[1][0]);
-        const auto model = response(trial, parameters[2][0]);
-        residual[0] =
-            deviance(T(-(trial.yes ? quest::logYes(location, beta, trial.criterion, model)
-                                   : quest::logNo(location, beta, trial.criterion, model))));
+        const T x = log10c[0] + trial.strength;
+        const T beta = exp(lnBeta[0]);
+        const auto model = response(trial, lapse[0]);
+        residual[0] = deviance(T(-(trial.yes ? quest::logYes(x, beta, trial.criterion, model)
+                                             : quest::logNo(x, beta, trial.criterion, model))));
         return true;
     }
 };
@@ -56,20 +50,15 @@ struct TrialDeviance {
 // The same trial for the covariance: (y - p) with p0's standard deviation frozen.
 struct FrozenWeight {
     Trial trial;
-    Eigen::RowVectorXd row;
     double sd;
 
     template <typename T>
-    bool operator()(T const* const* parameters, T* residual) const {
+    bool operator()(const T* log10c, const T* lnBeta, const T* lapse, T* residual) const {
         using std::exp;
-        T location(trial.strength);
-        for (Eigen::Index j = 0; j < row.size(); ++j) {
-            if (row[j] != 0) location += row[j] * parameters[0][j];
-        }
-        const T beta = exp(parameters[1][0]);
-        const T p =
-            quest::responseProbability(quest::detectionProbability(location, beta, trial.criterion),
-                                       response(trial, parameters[2][0]));
+        const T x = log10c[0] + trial.strength;
+        const T beta = exp(lnBeta[0]);
+        const T p = quest::responseProbability(
+            quest::detectionProbability(x, beta, trial.criterion), response(trial, lapse[0]));
         residual[0] = ((trial.yes ? 1.0 : 0.0) - p) / sd;
         return true;
     }
@@ -99,26 +88,33 @@ struct Parameters {
 };
 
 template <typename Functor>
-ceres::CostFunction* costFunction(const Functor& functor, int fixedCount) {
-    auto* cost = new ceres::DynamicAutoDiffCostFunction<Functor, 6>(new Functor(functor));
-    cost->AddParameterBlock(fixedCount);
-    cost->AddParameterBlock(1);
-    cost->AddParameterBlock(1);
-    cost->SetNumResiduals(1);
-    return cost;
+ceres::CostFunction* costFunction(const Functor& functor) {
+    return new ceres::AutoDiffCostFunction<Functor, 1, 1, 1, 1>(new Functor(functor));
 }
 
+// The column of a condition's slope.
+Eigen::Index slopeColumn(const Eigen::MatrixXd& design, int condition) {
+    Eigen::Index column = 0;
+    const auto row = design.row(condition);
+    if (row.maxCoeff(&column) != 1.0 || row.cwiseAbs().sum() != 1.0) {
+        throw std::invalid_argument("pooled fit: row " + std::to_string(condition) +
+                                    " of the design: must be one slope and nothing else");
+    }
+    return column;
+}
+
+// add(trial, its slope, its ln beta)
 template <typename Add>
-void forEachTrial(const Model& model, Add add) {
+void forEachTrial(const Model& model, Parameters& at, Add add) {
     for (const ModelObserver& observer : model.observers) {
         for (const ModelCell& cell : observer.cells) {
-            const Eigen::RowVectorXd row = model.design.row(cell.condition);
+            double* log10c = &at.fixed[slopeColumn(model.design, cell.condition)];
+            const int beta = model.betaIndex[static_cast<std::size_t>(cell.condition)];
+            double* lnBeta = &at.lnBeta[static_cast<std::size_t>(beta)];
             for (std::size_t t = 0; t < cell.trials.strength.size(); ++t) {
                 add(Trial{cell.trials.strength[t], t < cell.trials.yesCount, observer.gamma,
                           observer.lapseGuess, model.criterion},
-                    row,
-                    static_cast<std::size_t>(
-                        model.betaIndex[static_cast<std::size_t>(cell.condition)]));
+                    log10c, lnBeta);
             }
         }
     }
@@ -133,22 +129,19 @@ void addPriors(ceres::Problem& problem, Parameters& at) {
 
 Eigen::MatrixXd frozenWeightCovariance(const Model& model, Parameters at, bool holdLapse) {
     ceres::Problem problem;
-    const int fixedCount = static_cast<int>(at.fixed.size());
-    forEachTrial(model, [&](const Trial& trial, const Eigen::RowVectorXd& row, std::size_t beta) {
+    forEachTrial(model, at, [&](const Trial& trial, double* log10c, double* lnBeta) {
         const quest::ResponseModel shape{trial.gamma, at.lapse, trial.lapseGuess};
-        const double location = trial.strength + row.dot(at.fixed);
+        const double x = *log10c + trial.strength, beta = std::exp(*lnBeta);
         const double yes = quest::responseProbability(
-            quest::detectionProbability(location, std::exp(at.lnBeta[beta]), trial.criterion),
-            shape);
-        const double no =
-            std::exp(quest::logNo(location, std::exp(at.lnBeta[beta]), trial.criterion, shape));
+            quest::detectionProbability(x, beta, trial.criterion), shape);
+        const double no = std::exp(quest::logNo(x, beta, trial.criterion, shape));
         if (!(yes * no > 0)) return;  // a certain answer carries no information
-        problem.AddResidualBlock(
-            costFunction(FrozenWeight{trial, row, std::sqrt(yes * no)}, fixedCount), nullptr,
-            at.fixed.data(), &at.lnBeta[beta], &at.lapse);
+        problem.AddResidualBlock(costFunction(FrozenWeight{trial, std::sqrt(yes * no)}), nullptr,
+                                 log10c, lnBeta, &at.lapse);
     });
     addPriors(problem, at);
-    std::vector<const double*> blocks{at.fixed.data()};
+    std::vector<const double*> blocks;
+    for (const double& log10c : at.fixed) blocks.push_back(&log10c);
     for (const double& lnBeta : at.lnBeta) blocks.push_back(&lnBeta);
     if (holdLapse) {
         problem.SetParameterBlockConstant(&at.lapse);
@@ -160,8 +153,7 @@ Eigen::MatrixXd frozenWeightCovariance(const Model& model, Parameters at, bool h
     options.num_threads = 1;
     ceres::Covariance covariance(options);
     if (!covariance.Compute(blocks, &problem)) return {};
-    const auto n =
-        static_cast<Eigen::Index>(fixedCount) + static_cast<Eigen::Index>(blocks.size()) - 1;
+    const auto n = static_cast<Eigen::Index>(blocks.size());
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> matrix(n, n);
     if (!covariance.GetCovarianceMatrix(blocks, matrix.data())) return {};
     return matrix;
@@ -173,10 +165,9 @@ PooledFit fitPooled(const Model& model, const ModelParameters& start) {
     Parameters at{start.fixed, {}, start.lapse};
     for (const double beta : start.beta) at.lnBeta.push_back(std::log(beta));
     ceres::Problem problem;
-    forEachTrial(model, [&](const Trial& trial, const Eigen::RowVectorXd& row, std::size_t beta) {
-        problem.AddResidualBlock(
-            costFunction(TrialDeviance{trial, row}, static_cast<int>(at.fixed.size())), nullptr,
-            at.fixed.data(), &at.lnBeta[beta], &at.lapse);
+    forEachTrial(model, at, [&](const Trial& trial, double* log10c, double* lnBeta) {
+        problem.AddResidualBlock(costFunction(TrialDeviance{trial}), nullptr, log10c, lnBeta,
+                                 &at.lapse);
     });
     addPriors(problem, at);
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LapsePrior, 1, 1>(new LapsePrior),

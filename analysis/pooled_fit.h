@@ -33,7 +33,8 @@ struct PooledFit {
 };
 std::ostream& operator<<(std::ostream& out, const PooledFit& fit);
 
-/// tau and omega of `start` are not used.
+/// tau and omega of `start` are not used. Throws std::invalid_argument for a design whose
+/// conditions have more than a slope each.
 PooledFit fitPooled(const Model& model, const ModelParameters& start);
 
 }  // namespace analysis

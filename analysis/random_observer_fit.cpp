@@ -25,7 +25,8 @@ constexpr double kDifferenceStep = 1e-2;  // of the Hessian, in the same units
 // Nearer to a stationary point at a bound than this, a parameter is set on the bound.
 constexpr double kZeroSpread = 1e-4;  // log10 units: 0.02 % of r
 constexpr double kBoundAngle = 0.02;  // lapse within 6e-5 of the bound
-constexpr int kMostRounds = 40;       // of adapting the points and climbing
+constexpr double kSecondLapse = 0.04, kScaleOfSpread = 0.03;
+constexpr int kMostRounds = 40;  // of adapting the points and climbing
 constexpr int kFullRounds = 6;
 // A round that starts this near to its maximum (.01 standard errors) is the last.
 constexpr double kSettled = 1e-4;
@@ -62,25 +63,27 @@ MatrixXd firstInverseHessian(const MatrixXd& information, const VectorXd& scale,
     return inverse;
 }
 
-// Second derivatives of -ln L in the scaled free coordinates, from central differences of the exact
-// gradient. Empty where the likelihood cannot be had nearby.
+// Second derivatives of -ln L in the scaled free coordinates, from differences of the exact
+// gradient over a hundredth of a standard error: one-sided ones are good to .1 %. Empty where the
+// likelihood cannot be had nearby.
 MatrixXd scaledHessian(MarginalLikelihood& likelihood, LikelihoodForm form, const VectorXd& x,
                        const VectorXd& scale, const std::vector<int>& free, int& evaluations) {
     const auto n = static_cast<Eigen::Index>(free.size());
+    const auto slopes = [&](const VectorXd& at) {
+        VectorXd full;
+        ++evaluations;
+        if (!std::isfinite(likelihood.evaluate(at, form, &full))) return VectorXd();
+        return picked(full.cwiseProduct(scale).cwiseProduct(scale), scale, free);
+    };
+    const VectorXd here = slopes(x);
     MatrixXd hessian(n, n);
     for (Eigen::Index j = 0; j < n; ++j) {
         const int at = free[static_cast<std::size_t>(j)];
-        VectorXd up, down, moved = x;
-        moved[at] = x[at] + kDifferenceStep * scale[at];
-        const double above = likelihood.evaluate(moved, form, &up);
-        moved[at] = x[at] - kDifferenceStep * scale[at];
-        const double below = likelihood.evaluate(moved, form, &down);
-        evaluations += 2;
-        if (!std::isfinite(above) || !std::isfinite(below)) return {};
-        for (Eigen::Index k = 0; k < n; ++k) {
-            const int to = free[static_cast<std::size_t>(k)];
-            hessian(k, j) = -(up[to] - down[to]) * scale[to] / (2 * kDifferenceStep);
-        }
+        VectorXd moved = x;
+        moved[at] += kDifferenceStep * scale[at];
+        const VectorXd there = slopes(moved);
+        if (here.size() == 0 || there.size() == 0) return {};
+        hessian.col(j) = (here - there) / kDifferenceStep;
     }
     return 0.5 * (hessian + hessian.transpose());
 }
@@ -112,23 +115,74 @@ std::vector<int> freeCoordinates(const Layout& layout, const FitOptions& options
     return free;
 }
 
+// Where a search stands.
+struct Search {
+    VectorXd x;
+    std::vector<int> free;
+    double value = 0;  // of the likelihood, its points adapted at x
+    bool converged = false, lapseAtBound = false, tauAtZero = false, omegaAtZero = false;
+    std::string message;
+};
+
 // A parameter whose optimum is on its bound is put there and held, so that the Hessian of the rest
 // means something. True when one was.
-bool holdBounds(VectorXd& x, std::vector<int>& free, const Layout& layout, RandomObserverFit& fit) {
+bool holdBounds(const Layout& layout, Search& search) {
     bool held = false;
     const auto hold = [&](int index, double value, bool& flag) {
-        const auto found = std::find(free.begin(), free.end(), index);
-        if (found == free.end()) return;
-        free.erase(found);
-        x[index] = value;
+        const auto found = std::find(search.free.begin(), search.free.end(), index);
+        if (found == search.free.end()) return;
+        search.free.erase(found);
+        search.x[index] = value;
         flag = held = true;
     };
-    if (std::abs(x[layout.tau]) < kZeroSpread) hold(layout.tau, 0, fit.tauAtZero);
-    if (std::abs(x[layout.omega]) < kZeroSpread) hold(layout.omega, 0, fit.omegaAtZero);
-    const double angle = std::abs(std::remainder(x[layout.lapse], 2 * kHalfPi));
-    if (angle < kBoundAngle) hold(layout.lapse, 0, fit.lapseAtBound);
-    if (angle > kHalfPi - kBoundAngle) hold(layout.lapse, kHalfPi, fit.lapseAtBound);
+    if (std::abs(search.x[layout.tau]) < kZeroSpread) hold(layout.tau, 0, search.tauAtZero);
+    if (std::abs(search.x[layout.omega]) < kZeroSpread) hold(layout.omega, 0, search.omegaAtZero);
+    const double angle = std::abs(std::remainder(search.x[layout.lapse], 2 * kHalfPi));
+    if (angle < kBoundAngle) hold(layout.lapse, 0, search.lapseAtBound);
+    if (angle > kHalfPi - kBoundAngle) hold(layout.lapse, kHalfPi, search.lapseAtBound);
     return held;
+}
+
+// Adapts the quadrature points and climbs, in turn, until a round starts at its own maximum.
+Search climb(MarginalLikelihood& likelihood, const FitOptions& options, const Layout& layout,
+             const VectorXd& scale, const VectorXd& start, int& evaluations) {
+    Search search{.x = start, .free = freeCoordinates(layout, options), .message = {}};
+    MatrixXd inverseHessian;
+    VectorXd full;
+    const auto objective = [&](const VectorXd& scaled, VectorXd* gradient) {
+        ++evaluations;
+        const VectorXd x = placed(search.x, scaled, scale, search.free);
+        const double value = likelihood.evaluate(x, options.form, gradient ? &full : nullptr);
+        if (gradient && std::isfinite(value)) {
+            *gradient = -picked(full.cwiseProduct(scale).cwiseProduct(scale), scale, search.free);
+        }
+        return -value;
+    };
+    for (int round = 0; round < kMostRounds && !search.converged; ++round) {
+        const bool adapted = likelihood.adapt(search.x);
+        if (adapted) search.value = likelihood.evaluate(search.x, options.form, nullptr);
+        ++evaluations;
+        if (!adapted || !std::isfinite(search.value)) {
+            search.message = "the likelihood cannot be evaluated";
+            return search;
+        }
+        if (inverseHessian.size() == 0) {
+            inverseHessian = firstInverseHessian(likelihood.fixedInformation(), scale, search.free);
+        }
+        const VectorXd from = picked(search.x, scale, search.free);
+        const Descent descent = descend(objective, from, inverseHessian, kDecrement);
+        const bool settled = descent.converged && descent.firstDecrement < kSettled;
+        // Adapting and climbing may chase each other; half steps end that.
+        const double share = !settled && round >= kFullRounds ? 0.5 : 1.0;
+        search.x = placed(search.x, from + share * (descent.x - from), scale, search.free);
+        search.value = -descent.value;
+        search.converged = settled && !holdBounds(layout, search);
+        if (settled && !search.converged) inverseHessian.resize(0, 0);
+        search.message = descent.converged ? "the maximum moved with every adaptation"
+                                           : "the search for the maximum stopped short of it";
+    }
+    if (search.converged) search.message.clear();
+    return search;
 }
 
 void keepEffects(const Model& model, const MarginalLikelihood& likelihood, RandomObserverFit& fit) {
@@ -174,52 +228,36 @@ RandomObserverFit fitRandomObservers(const Model& model, const ModelParameters& 
     fit.parameters = start;
     const Layout layout(model);
     const VectorXd scale = coordinateScale(layout);
-    std::vector<int> free = freeCoordinates(layout, options);
-
-    VectorXd x = toCoordinates(start), full;
-    MatrixXd inverseHessian;
-    const auto objective = [&](const VectorXd& scaled, VectorXd* gradient) {
-        ++fit.evaluations;
-        const double value = likelihood.evaluate(placed(x, scaled, scale, free), options.form,
-                                                 gradient ? &full : nullptr);
-        if (gradient && std::isfinite(value)) {
-            *gradient = -picked(full.cwiseProduct(scale).cwiseProduct(scale), scale, free);
-        }
-        return -value;
-    };
-    for (int round = 0; round < kMostRounds && !fit.converged; ++round) {
-        if (!likelihood.adapt(x) || !std::isfinite(likelihood.evaluate(x, options.form, nullptr))) {
-            fit.message = "the likelihood cannot be evaluated";
-            return fit;
-        }
-        if (inverseHessian.size() == 0) {
-            inverseHessian = firstInverseHessian(likelihood.fixedInformation(), scale, free);
-        }
-        const VectorXd from = picked(x, scale, free);
-        const Descent descent = descend(objective, from, inverseHessian, kDecrement);
-        const bool settled = descent.converged && descent.firstDecrement < kSettled;
-        // Adapting and climbing may chase each other; half steps end that.
-        const double share = !settled && round >= kFullRounds ? 0.5 : 1.0;
-        x = placed(x, from + share * (descent.x - from), scale, free);
-        fit.converged = settled && !holdBounds(x, free, layout, fit);
-        if (settled && !fit.converged) inverseHessian.resize(0, 0);
-        fit.message = descent.converged ? "the maximum moved with every adaptation"
-                                        : "the search for the maximum stopped short of it";
+    Search best = climb(likelihood, options, layout, scale, toCoordinates(start), fit.evaluations);
+    // Few lapses and a shallow curve, or more of them and a steeper one: small studies may have a
+    // maximum at each.
+    if (best.lapseAtBound || !best.converged) {
+        ModelParameters again = best.converged ? fromCoordinates(best.x, model) : start;
+        again.lapse = kSecondLapse;
+        if (options.estimateTau) again.tau = std::max(again.tau, kScaleOfSpread);
+        if (options.estimateOmega) again.omega = std::max(again.omega, kScaleOfSpread);
+        Search other =
+            climb(likelihood, options, layout, scale, toCoordinates(again), fit.evaluations);
+        if (other.converged && (!best.converged || other.value > best.value)) best = other;
     }
-    if (fit.converged) fit.message.clear();
-    if (fit.converged) likelihood.adapt(x);
+    fit.converged = best.converged;
+    fit.message = best.message;
+    fit.lapseAtBound = best.lapseAtBound;
+    fit.tauAtZero = best.tauAtZero;
+    fit.omegaAtZero = best.omegaAtZero;
+    if (fit.converged) likelihood.adapt(best.x);
     if (fit.converged && options.covariance) {
-        addCovariance(likelihood, options, layout, x, scale, free, fit);
+        addCovariance(likelihood, options, layout, best.x, scale, best.free, fit);
     }
     VectorXd gradient;
-    fit.logLikelihood = likelihood.evaluate(x, options.form, &gradient);
+    fit.logLikelihood = likelihood.evaluate(best.x, options.form, &gradient);
     ++fit.evaluations;
     if (!std::isfinite(fit.logLikelihood)) {
         fit.converged = false;
         fit.message = "the likelihood is not finite at the estimate";
         return fit;
     }
-    fit.parameters = fromCoordinates(x, model);
+    fit.parameters = fromCoordinates(best.x, model);
     fit.fixedInformation = likelihood.fixedInformation();
     if (options.covariance) fit.spread = likelihood.spreadInformation();
     keepEffects(model, likelihood, fit);

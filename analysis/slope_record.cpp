@@ -179,7 +179,7 @@ std::string methodParagraph(const SlopeAnalysis& analysis) {
         "log10 c varies normally between observers and between an observer's conditions; both "
         "were integrated out by adaptive Gauss-Hermite quadrature, their variances estimated by "
         "restricted maximum likelihood. Weak priors: steepness log-normal around 3.5 (ln sd .5), "
-        "lapse rate Beta(1, 20) on [0, .15]. ";
+        "lapse rate Beta(1, 20) on [.001, .15]. ";
     text +=
         law.observers >= 2
             ? "Intervals: Student's t with Satterthwaite's degrees of freedom on the Hessian of "

@@ -80,6 +80,21 @@ TEST(SlopeAnalysis, GivesTheSameBitsEveryTime) {
     EXPECT_EQ(record(), record());
 }
 
+TEST(SlopeAnalysis, AnotherCriterionIsTheSameCurveReadElsewhere) {
+    const tests::StudyPlan plan{.observers = 6, .sizes = {10, 20}};
+    const Study study = tests::simulateStudy(plan, 74);
+    AnalysisOptions hidden;
+    hidden.criterion = 0.1;
+    const SlopeAnalysis published = analyseSlope(study), other = analyseSlope(study, hidden);
+    const double beta = published.slope.law.parameters.beta.front();
+    // Closed-form offset. Both searches end within .01 standard errors (9 % of c) of their maximum.
+    EXPECT_NEAR(c(other.slope.headline.value) / c(published.slope.headline.value),
+                quest::slopeFactor(quest::kPaperCriterion, 0.1, beta), 0.002);
+    EXPECT_NEAR(other.slope.law.parameters.tau, published.slope.law.parameters.tau, 1e-3);
+    EXPECT_THROW(analyseSlope(study, {.criterion = 1.0}), std::invalid_argument);
+    EXPECT_THROW(analyseSlope(study, {.criterion = std::nan("")}), std::invalid_argument);
+}
+
 TEST(SlopeAnalysis, WhereTheLawBendsTheHeadlineIsTheLargestOverTheMeasuredSizes) {
     const tests::StudyPlan plan{
         .observers = 10, .groups = tests::fourGroups(0.44, 0.44, 0.54, 0.54), .kappa = 0.8};
