@@ -56,10 +56,10 @@ std::vector<Estimator> estimators(const SlopeAnalysis& analysis) {
         {"overall, two-stage", "mean over observers of log10 thresholds; leaves censored cells out",
          analysis.twoStage.log10c, analysis.twoStage.ci95},
         {"overall, two-stage median", "median over observers", analysis.twoStage.medianLog10c, {}}};
-    if (analysis.throughOrigin) {
+    if (analysis.lines.throughOrigin) {
         rows.push_back({"all conditions, least squares through the origin in px (published method)",
                         "radii scatter equally at every size; about 4 % too large; no interval",
-                        std::log10(*analysis.throughOrigin),
+                        std::log10(*analysis.lines.throughOrigin),
                         {}});
     }
     if (analysis.pooled && analysis.pooled->converged) {
@@ -95,7 +95,7 @@ TextTable groupFile(const SlopeAnalysis& analysis) {
         row.push_back(result.c.degreesOfFreedom > 0 ? full(result.c.degreesOfFreedom) : kUnknown);
         appendSlope(row, result.twoStage.log10c, result.twoStage.ci95);
         row.push_back(std::to_string(result.twoStage.censored));
-        row.push_back(full(result.throughOrigin));
+        row.push_back(full(result.lines.throughOrigin));
         row.push_back(result.flag.empty() ? kUnknown : result.flag);
         table.rows.push_back(row);
     }
@@ -194,7 +194,7 @@ TextTable groupReport(const SlopeAnalysis& analysis) {
              slopeText(result.c),
              result.twoStage.log10c ? slopeText(*result.twoStage.log10c, result.twoStage.ci95)
                                     : kUnknown,
-             std::to_string(result.twoStage.censored), rounded(result.throughOrigin, 2)});
+             std::to_string(result.twoStage.censored), rounded(result.lines.throughOrigin, 2)});
     }
     return table;
 }

@@ -242,11 +242,10 @@ void describeGroups(SlopeAnalysis& result, const std::vector<std::string>& flags
     const auto n = static_cast<Index>(result.study.groups.size());
     for (Index g = 0; g < n; ++g) {
         const auto group = static_cast<std::size_t>(g);
-        GroupResult row{
-            .c = linearEstimate(result.slope.law, unitVector(n, g)),
-            .flag = flags[group],
-            .twoStage = twoStage(result.study, result.thresholds, group),
-            .throughOrigin = leastSquaresThroughOrigin(result.study, result.thresholds, group)};
+        GroupResult row{.c = linearEstimate(result.slope.law, unitVector(n, g)),
+                        .flag = flags[group],
+                        .twoStage = twoStage(result.study, result.thresholds, group),
+                        .lines = lineFits(result.study, result.thresholds, group)};
         std::tie(row.observers, row.trials) = countsOf(result.study, group, std::nullopt);
         result.groups.push_back(std::move(row));
     }
@@ -353,7 +352,7 @@ SlopeAnalysis analyseSlope(const Study& study, const AnalysisOptions& options, S
     const Model model = slopeModel(result.study, perGroupDesign(result.study), options.criterion);
     result.thresholds = cellThresholds(result.study, model, law.parameters);
     result.twoStage = twoStage(result.study, result.thresholds);
-    result.throughOrigin = leastSquaresThroughOrigin(result.study, result.thresholds);
+    result.lines = lineFits(result.study, result.thresholds);
     describeGroups(result, flags);
     result.percentAtThreshold = percentAtThreshold(result.study, law, options.criterion);
     nameAbsences(result);

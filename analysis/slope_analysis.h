@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/line_fits.h"
 #include "analysis/pooled_fit.h"
 #include "analysis/random_observer_fit.h"
 #include "analysis/screening.h"
@@ -38,7 +39,7 @@ struct GroupResult {
     int trials = 0, observers = 0;
     std::string flag = {};  ///< empty, or what its number rests on
     TwoStage twoStage;
-    std::optional<double> throughOrigin = {};  ///< c, not log10
+    LineFits lines = {};
 };
 
 struct ConditionResult {
@@ -78,8 +79,8 @@ struct SlopeAnalysis {
     std::vector<GroupResult> groups;
     std::vector<ConditionResult> conditions;
     std::vector<CellThreshold> thresholds;
-    TwoStage twoStage;  ///< all groups
-    std::optional<double> throughOrigin;
+    TwoStage twoStage;              ///< all groups
+    LineFits lines;                 ///< all groups
     double percentAtThreshold = 0;  ///< P(yes) at r = c a with the fitted lapse and mean gamma
 
     // Comparisons:

@@ -141,18 +141,4 @@ TwoStage twoStage(const Study& study, const std::vector<CellThreshold>& threshol
     return result;
 }
 
-std::optional<double> leastSquaresThroughOrigin(const Study& study,
-                                                const std::vector<CellThreshold>& thresholds,
-                                                std::optional<std::size_t> group) {
-    double ar = 0, aa = 0;
-    for (const CellThreshold& cell : thresholds) {
-        if (!inGroup(study, cell, group) || cell.state != ThresholdState::estimated) continue;
-        const double a = study.conditions[cell.condition].artifactPx;
-        ar += a * cell.radiusPx;
-        aa += a * a;
-    }
-    if (aa == 0) return std::nullopt;
-    return ar / aa;
-}
-
 }  // namespace analysis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Two-stage results, for comparison with the one-stage fit: a threshold per observer and condition,
-// then means over observers. And the paper's own line through the origin.
+// then means over observers. The published way to a slope goes on from the same thresholds:
+// line_fits.h.
 //
 // The first stage finds the maximum-likelihood location of each cell with beta and lapse held at
 // the one-stage fit's values (40 trials cannot tell them). A cell whose answers are all right, all
@@ -44,13 +45,5 @@ struct TwoStage {
 };
 TwoStage twoStage(const Study& study, const std::vector<CellThreshold>& thresholds,
                   std::optional<std::size_t> group = std::nullopt);
-
-/// Least squares through the origin of the threshold radii in px against the artifact size, as in
-/// Kreuzer eq. 1. Biased up (about 4 % at the usual spread between observers), since radii scatter
-/// by a factor, and dominated by the largest size. No interval: the usual one covers 13 to 46 %
-/// where it claims 95 %.
-std::optional<double> leastSquaresThroughOrigin(const Study& study,
-                                                const std::vector<CellThreshold>& thresholds,
-                                                std::optional<std::size_t> group = std::nullopt);
 
 }  // namespace analysis

@@ -219,7 +219,7 @@ TEST(SlopeAnalysis, LeastSquaresThroughTheOriginIsThePublishedFormula) {
         ar += a * cell.radiusPx;
         aa += a * a;
     }
-    EXPECT_NEAR(result.throughOrigin.value(), ar / aa, 1e-12);
+    EXPECT_NEAR(result.lines.throughOrigin.value(), ar / aa, 1e-12);
 }
 
 TEST(SlopeAnalysis, WorksInYesNo) {
