@@ -53,7 +53,8 @@ LineFits lineFits(const Study& study, const std::vector<CellThreshold>& threshol
         if (cell.state != ThresholdState::estimated) continue;
         points.push_back({condition.artifactPx, cell.radiusPx});
     }
-    LineFits fits{.cells = static_cast<int>(points.size())};
+    LineFits fits;
+    fits.cells = static_cast<int>(points.size());
     if (points.empty()) return fits;
     double ar = 0, aa = 0;
     for (const auto& [a, r] : points) {
