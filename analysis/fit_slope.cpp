@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/findings.h"
 #include "analysis/number_text.h"
 #include "analysis/reference_sizes.h"
 #include "analysis/result_tables.h"
@@ -32,8 +33,11 @@ void print(const analysis::SlopeAnalysis& result, const records::Slope& slope,
         std::fprintf(stderr, "%s\n", notice.c_str());
     }
     std::printf("%s\n\n", records::describe(slope).c_str());
-    for (const std::string& sentence : analysis::findings(result)) {
-        std::printf("%s\n", sentence.c_str());
+    for (const std::string& warning : analysis::warnings(result)) {
+        std::printf("WARNING: %s\n", warning.c_str());
+    }
+    for (const analysis::Finding& finding : analysis::findings(result)) {
+        std::printf("%s: %s\n", finding.topic.c_str(), finding.text.c_str());
     }
     for (const analysis::TextTable& table : analysis::reportTables(result, reference)) {
         if (table.name == "screening") continue;  // in the report; its finding is above

@@ -2,10 +2,10 @@
 #include "analysis/slope_report.h"
 
 #include "analysis/figures.h"
+#include "analysis/findings.h"
 #include "analysis/gnuplot.h"
 #include "analysis/number_text.h"
 #include "analysis/result_tables.h"
-#include "analysis/slope_record.h"
 #include "records/html_page.h"
 #include "records/run_context.h"
 #include "records/whole_file.h"
@@ -50,7 +50,10 @@ std::string page(const SlopeAnalysis& analysis, const records::Slope& slope,
         fixedText(slope.percentCorrect, 1) +
         (slope.task == records::Task::twoAfc ? " % correct answers." : " % \"seen\" answers.") +
         " The same number at another criterion is another radius: c means nothing without it.");
-    for (const std::string& sentence : findings(analysis)) page.paragraph(sentence);
+    for (const std::string& warning : warnings(analysis)) page.note(warning);
+    for (const Finding& finding : findings(analysis)) {
+        page.paragraph(finding.topic + ": " + finding.text);
+    }
     page.heading("Threshold against size");
     for (const Figure& figure : figures) {
         page.svg(records::readWholeFile(folder / (figure.name + ".svg")), figure.caption);

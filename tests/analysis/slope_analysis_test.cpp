@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "analysis/findings.h"
 #include "analysis/slope_record.h"
 #include "tests/analysis/simulated_study.h"
 
@@ -104,7 +105,7 @@ TEST(SlopeAnalysis, WhereTheLawBendsTheHeadlineIsTheLargestOverTheMeasuredSizes)
     EXPECT_EQ(result.slope.worstArtifactPx, 5);
     EXPECT_NEAR(result.slope.headline.value, 0.54 + 0.2 * std::log10(2.0), 0.13);
     EXPECT_THAT(slopeRecord(result, {}).method, HasSubstr("rejects r = c a"));
-    EXPECT_THAT(findings(result).front(), HasSubstr("The law is rejected"));
+    EXPECT_THAT(findings(result).front().text, HasSubstr("The law is rejected"));
 }
 
 TEST(SlopeAnalysis, ScreensAGuesserAndGivesTheSlopeWithAndWithout) {

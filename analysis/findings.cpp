@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/findings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/number_text.h"
+
+namespace analysis {
+namespace {
+
+constexpr double kLevel = 0.05;          // of the tests that only sentences hang on
+constexpr std::size_t kNamesListed = 6;  // of observers in one sentence
+
+std::string countText(int count, const std::string& one) {
+    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+std::string ratioText(const RatioTest& test) {
+    return "likelihood ratio " + fixedText(test.statistic, 1) + " on " +
+           countText(test.degreesOfFreedom, "degree") + " of freedom, " + pValueText(test.pValue);
+}
+
+std::string percentText(double share) {
+    return fixedText(100 * share, 0) + " %";
+}
+
+std::string listed(const std::vector<std::string>& names, const std::string& elsewhere) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), kNamesListed); ++i) {
+        text += (i > 0 ? ", " : "") + names[i];
+    }
+    if (names.size() > kNamesListed) {
+        text += " and " + std::to_string(names.size() - kNamesListed) + " more (" + elsewhere + ")";
+    }
+    return text;
+}
+
+std::pair<double, double> sizeRange(const Study& study) {
+    const auto [least, most] =
+        std::minmax_element(study.conditions.begin(), study.conditions.end(),
+                            [](const Condition& one, const Condition& other) {
+                                return one.artifactPx < other.artifactPx;
+                            });
+    return {least->artifactPx, most->artifactPx};
+}
+
+// A test that does not reject proves nothing; what its interval still allows does.
+std::string lawAccepted(const SlopeAnalysis& analysis) {
+    const auto [least, most] = sizeRange(analysis.study);
+    const std::string range = shortText(least) + " to " + shortText(most) + " px";
+    std::string text = "The data agree with the law: one c serves every size from " + range;
+    if (const auto ci95 = analysis.slope.kappa->ci95()) {
+        const double off = std::max(std::abs(ci95->low - 1), std::abs(ci95->high - 1));
+        text += ". What kappa's interval still allows changes c by at most " +
+                percentText(std::pow(most / least, off) - 1) + " over that range";
+    }
+    return text + ".";
+}
+
+std::string lawFinding(const SlopeAnalysis& analysis) {
+    const SlopeResult& slope = analysis.slope;
+    if (!slope.kappa || !slope.kappaTest) return "";
+    const std::string found = "The size exponent kappa is " + plainText(*slope.kappa) +
+                              " where the law r = c a has 1 (" + ratioText(*slope.kappaTest) +
+                              "). ";
+    if (!slope.lawRejected) return found + lawAccepted(analysis);
+    const auto [least, most] = sizeRange(analysis.study);
+    return found + "The law is rejected: " +
+           (slope.kappa->value < 1
+                ? "small artifacts need more blur for their size than large ones"
+                : "large artifacts need more blur for their size than small ones") +
+           ". c is therefore the largest of the measured sizes, which is at a = " +
+           shortText(slope.worstArtifactPx.value_or(0)) + " px: safe from " + shortText(least) +
+           " to " + shortText(most) + " px, " +
+           (slope.kappa->value < 1 ? "too small for smaller artifacts."
+                                   : "too small for larger artifacts.");
+}
+
+std::string groupFinding(const SlopeAnalysis& analysis) {
+    if (!analysis.equalGroupsTest) return "";
+    const RatioTest& test = *analysis.equalGroupsTest;
+    const std::string found = "That all groups have one slope: " + ratioText(test) + ". ";
+    if (test.pValue >= kLevel) {
+        return found + "They do not differ demonstrably. The headline is that of " +
+               analysis.slope.worstGroup + ", the largest.";
+    }
+    std::size_t least = 0, most = 0;
+    for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
+        if (analysis.groups[g].c.value < analysis.groups[least].c.value) least = g;
+        if (analysis.groups[g].c.value > analysis.groups[most].c.value) most = g;
+    }
+    const auto cOf = [&](std::size_t g) {
+        return fixedText(std::pow(10.0, analysis.groups[g].c.value), 2);
+    };
+    return found + "They differ, from c = " + cOf(least) + " (" +
+           analysis.study.groups[least].name + ") to " + cOf(most) + " (" +
+           analysis.study.groups[most].name + "). The headline, of " + analysis.slope.worstGroup +
+           ", is safe for all of them; where only the easier ones occur, their own c is enough.";
+}
+
+std::string observerFinding(const SlopeAnalysis& analysis) {
+    const RandomObserverFit& law = analysis.slope.law;
+    if (law.observers < 2) return "";
+    const std::string c90 =
+        "c for the 90th-percentile observer is " +
+        slopeText(analysis.slope.headline.value90, analysis.slope.headline.ci95For90) +
+        ": with the headline's c, half of all observers see more than the criterion says; with "
+        "this one, one in ten.";
+    if (law.tauAtZero) {
+        return "No difference between observers was found beyond chance. " + c90;
+    }
+    return "Their slopes scatter by a factor of " +
+           fixedText(std::pow(10.0, law.parameters.tau), 2) + " (sd " +
+           fixedText(law.parameters.tau, 3) + " log10 between observers, " +
+           fixedText(law.parameters.omega, 3) + " between an observer's conditions). " + c90;
+}
+
+std::string contrastFinding(const SlopeAnalysis& analysis) {
+    if (!analysis.contrastExponent) return "";
+    const LinearEstimate& e = *analysis.contrastExponent;
+    const auto ci95 = e.ci95();
+    const auto atHalf = [](double exponent) { return fixedText(std::pow(0.5, exponent), 2); };
+    std::string text = "c(C) = c C^e over the lit level C, with e = " + plainText(e) +
+                       ": at half the light c is " + atHalf(e.value);
+    if (ci95) text += " [" + atHalf(ci95->high) + ", " + atHalf(ci95->low) + "]";
+    text += " times as large. ";
+    if (!ci95) return text;
+    if (ci95->low <= 0 && ci95->high >= 0) {
+        return text + "No effect is demonstrable: use one c at every contrast.";
+    }
+    return text + (e.value > 0 ? "Less light needs less blur; c of full light is safe."
+                               : "Less light needs more blur: c of full light is too small there.");
+}
+
+std::string screeningFinding(const SlopeAnalysis& analysis) {
+    std::vector<std::string> excluded;
+    for (const ScreenedObserver& row : analysis.screening) {
+        if (row.excluded) excluded.push_back(row.id + " (" + row.reason + ")");
+    }
+    if (excluded.empty()) {
+        return analysis.options.screening.apply ? "Every observer passed." : "Switched off.";
+    }
+    std::string text = "Left out: " + listed(excluded, "screening.tsv") + ".";
+    if (analysis.everyone) {
+        const SlopeResult& all = *analysis.everyone;
+        text += " With everyone c would be " + slopeText(all.headline.value, all.headline.ci95) +
+                " (" + all.worstGroup + ").";
+    }
+    return text;
+}
+
+std::string modelText(const SlopeAnalysis& analysis) {
+    const ModelParameters& fitted = analysis.slope.law.parameters;
+    const RandomObserverFit& law = analysis.slope.law;
+    std::string text =
+        "All trials were fitted at once by maximum marginal likelihood: detection follows a "
+        "Weibull function of log10(c a / r) that passes through F* = " +
+        fixedText(analysis.options.criterion, 4) +
+        " at r = c a, with one steepness per pattern and a shared lapse rate";
+    text += analysis.study.task == records::Task::yesNo
+                ? "; false alarms at each observer's rate on reference trials, (FA + .5)/(n + 1). "
+                : ", guessing at .5. ";
+    const bool observers = fitted.tau > 0 || law.tauAtZero;
+    const bool cells = fitted.omega > 0 || law.omegaAtZero;
+    if (observers || cells) {
+        text += "log10 c varies normally ";
+        text += observers ? "between observers" : "";
+        text += observers && cells ? " and " : "";
+        text += cells ? "between an observer's conditions" : "";
+        text +=
+            "; these effects were integrated out by adaptive Gauss-Hermite quadrature, their "
+            "variance estimated by restricted maximum likelihood. ";
+    }
+    return text +
+           "Weak priors: steepness log-normal around 3.5 (ln sd .5), lapse rate Beta(1, 20) on "
+           "[.001, .15]. ";
+}
+
+std::string intervalText(const SlopeAnalysis& analysis) {
+    const RandomObserverFit& law = analysis.slope.law;
+    if (law.observers < 2) return "No interval: one observer. ";
+    if (!analysis.slope.headline.ci95) return "No interval: " + law.message + ". ";
+    std::string text =
+        "Intervals: 95 %, Student's t with Satterthwaite's degrees of freedom on the Hessian of "
+        "the marginal likelihood. ";
+    const bool ofSeveral = analysis.study.groups.size() > 1 || analysis.slope.lawRejected;
+    text += ofSeveral ? "The headline is the largest slope, corrected for the median error of a "
+                        "maximum; its interval holds wherever the groups lie (parametric bootstrap "
+                        "of the joint distribution, "
+                      : "The interval for the 90th-percentile observer comes from a parametric "
+                        "bootstrap (";
+    return text + std::to_string(kBootstrapDraws) + " draws, seed " +
+           std::to_string(analysis.options.seed) + "). ";
+}
+
+}  // namespace
+
+std::vector<Finding> findings(const SlopeAnalysis& analysis) {
+    std::vector<Finding> found = {{"Law r = c a", lawFinding(analysis)},
+                                  {"Groups", groupFinding(analysis)},
+                                  {"Observers", observerFinding(analysis)},
+                                  {"Contrast", contrastFinding(analysis)},
+                                  {"Screening", screeningFinding(analysis)}};
+    std::erase_if(found, [](const Finding& finding) { return finding.text.empty(); });
+    for (const std::string& absent : analysis.absent) {
+        found.push_back({"Not available", absent + "."});
+    }
+    return found;
+}
+
+std::vector<std::string> warnings(const SlopeAnalysis& analysis) {
+    const RandomObserverFit& law = analysis.slope.law;
+    std::vector<std::string> sentences;
+    if (!law.converged) {
+        sentences.push_back("The fit did not converge (" + law.message +
+                            "): its numbers are where it stopped.");
+    }
+    if (law.observers == 1) {
+        sentences.push_back(
+            "One observer: c is this person's. No interval can be given for people in general.");
+    }
+    if (law.lapseAtBound && law.parameters.lapse > 0.5 * kLapseLimit) {
+        sentences.push_back(
+            "The lapse rate ended on its upper bound, " + percentText(law.parameters.lapse) +
+            ": observers often missed what they could see, or the psychometric function does not "
+            "fit. Look at the psychometric functions and at the screening before using c.");
+    }
+    if (analysis.slope.lawRejected) {
+        sentences.push_back("The law r = c a is rejected (" +
+                            pValueText(analysis.slope.kappaTest->pValue) +
+                            "): c holds for the sizes that were measured, not beyond.");
+    }
+    std::vector<std::string> flagged;
+    for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
+        if (analysis.groups[g].flag.empty()) continue;
+        flagged.push_back(analysis.study.groups[g].name + " (" + analysis.groups[g].flag + ")");
+    }
+    if (!flagged.empty()) {
+        sentences.push_back("Flagged: " + listed(flagged, "groups.tsv") + ".");
+    }
+    return sentences;
+}
+
+std::string methodParagraph(const SlopeAnalysis& analysis) {
+    const Study& study = analysis.study;
+    const SlopeResult& slope = analysis.slope;
+    std::string text = countText(static_cast<int>(study.observers.size()), "observer") + ", " +
+                       countText(trialCount(study), "trial") + " in " +
+                       countText(static_cast<int>(study.conditions.size()), "condition") + " of " +
+                       countText(static_cast<int>(study.groups.size()), "group") +
+                       " (pattern or angle x lit level). ";
+    text += modelText(analysis) + intervalText(analysis);
+    if (slope.kappaTest) {
+        const std::string p = pValueText(slope.kappaTest->pValue);
+        text +=
+            "Designs are compared by the ratio of their likelihoods in the plain form; the test of "
+            "kappa = 1 ";
+        text += slope.lawRejected ? "rejects r = c a (" + p +
+                                        "), so that c is the maximum over the measured sizes, at "
+                                        "a = " +
+                                        shortText(*slope.worstArtifactPx) + " px. "
+                                  : "does not reject r = c a (" + p + "). ";
+    }
+    if (!slope.law.converged) text += "The fit did not converge: " + slope.law.message + ". ";
+    if (slope.law.lapseAtBound) {
+        text +=
+            "The lapse rate ended on its bound, " + fixedText(slope.law.parameters.lapse, 3) + ". ";
+    }
+    return text + "Screening: " + screeningFinding(analysis);
+}
+
+}  // namespace analysis
