@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -108,8 +110,12 @@ WindowPerson::~WindowPerson() {
 
 bool WindowPerson::running() {
     if (process_ < 0) return false;
+    siginfo_t ended{};
+    ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (ended.si_pid == 0) return true;
+    killer_ = {};  // before the number of the process is free for another one
     int status = 0;
-    if (::waitpid(process_, &status, WNOHANG) == 0) return true;
+    ::waitpid(process_, &status, 0);
     exitCode_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     process_ = -1;
     return false;
@@ -118,9 +124,30 @@ bool WindowPerson::running() {
 void WindowPerson::kill() {
     if (!running()) return;
     ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-    process_ = -1;
-    exitCode_ = 128 + SIGKILL;
+    siginfo_t ended{};
+    ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOWAIT);
+    running();
+}
+
+void WindowPerson::killAfter(std::chrono::microseconds time) {
+    killer_ = std::jthread([time, process = process_](std::stop_token stop) {
+        std::mutex mutex;
+        std::unique_lock lock(mutex);
+        std::condition_variable_any stopped;
+        stopped.wait_for(lock, stop, time, [] { return false; });
+        if (!stop.stop_requested()) ::kill(process, SIGKILL);
+    });
+}
+
+bool WindowPerson::killed() const {
+    return exitCode_ == 128 + SIGKILL;
+}
+
+std::vector<std::string> WindowPerson::events() const {
+    std::istringstream log(contentOf(log_));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(log, line);) lines.push_back(line);
+    return lines;
 }
 
 int WindowPerson::exitCode() {

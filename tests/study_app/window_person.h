@@ -5,8 +5,10 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace tests {
@@ -45,8 +47,12 @@ class WindowPerson {
     void xdotool(const std::vector<std::string>& arguments);
     std::string window();  ///< its id
 
-    void kill();     ///< at once, as a power cut would
-    int exitCode();  ///< waits for its end, at most 30 s
+    void kill();  ///< at once, as a power cut would
+    /// kill() from another thread, in the middle of whatever goes on then.
+    void killAfter(std::chrono::microseconds time);
+    bool killed() const;                      ///< and nothing else ended it
+    int exitCode();                           ///< waits for its end, at most 30 s
+    std::vector<std::string> events() const;  ///< the whole log so far
     std::string errors() const;
     double processorSeconds() const;
 
@@ -58,6 +64,7 @@ class WindowPerson {
     std::filesystem::path log_, errors_;
     std::size_t read_ = 0;  // bytes of the log
     std::string windowId_;
+    std::jthread killer_;
 };
 
 }  // namespace tests

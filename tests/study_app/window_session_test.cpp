@@ -2,6 +2,8 @@
 // Whole sessions as a person sits through them: a real window under Xvfb, real key events. Every
 // stimulus is read back from the framebuffer and compared with its codes (--verify-pixels), so any
 // session that ends well has shown what was computed.
+#include "tests/study_app/window_session.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +17,6 @@
 #include "study_app/robot_observer.h"
 #include "study_app/trial_stimulus.h"
 #include "tests/run_command.h"
-#include "tests/study_app/window_person.h"
 #include "tests/temporary_folder.h"
 
 namespace tests {
@@ -24,65 +25,12 @@ namespace {
 using records::Trial;
 using records::TrialStatus;
 
-constexpr const char* kDesign = R"({
-  "schema": {"name": "stairwell design", "major": 1, "minor": 0},
-  "name": "tiny", "description": "for tests", "window_px": 240, "artifact_px": [8, 12],
-  "patterns": ["stair", "step"], "trials_per_condition": 2, "catch_share": 0.2,
-  "radius_px": {"max": 120}
-})";
-
-/// Quick, without practice, and with room for a slow machine.
-constexpr const char* kPace = R"({"blank_s": 0.02, "fixation_s": 0.05, "too_fast_s": 0,
-  "break_every_trials": 0, "practice": {"correct": 0}, "resumed_practice": {"correct": 0}})";
-
-class WindowSession : public testing::Test {
-  protected:
-    std::vector<std::string> arguments(const std::string& pace = kPace) const {
-        std::ofstream(folder_.path() / "tiny.json") << kDesign;
-        std::ofstream(folder_.path() / "pace.json") << pace;
-        return {"--design",
-                (folder_.path() / "tiny.json").string(),
-                "--data",
-                data(),
-                "--participant",
-                "01",
-                "--seed",
-                "7",
-                "--start",
-                "--presentation",
-                (folder_.path() / "pace.json").string()};
-    }
-    std::string data() const { return (folder_.path() / "data").string(); }
-    std::filesystem::path table() const {
-        return records::trialTablePath(data(), "01", std::nullopt);
-    }
-    std::vector<Trial> rows() const { return records::readTrialTable(table()).trials; }
-
-    /// Presses the arrow and returns it when the answer is on disk.
-    static std::string answer(WindowPerson& person, const std::string& side) {
-        person.waitFor("stimulus");
-        person.press(side == "left" ? "Left" : "Right");
-        return person.waitFor("row");
-    }
-    static void answerAll(WindowPerson& person) {
-        for (;;) {
-            const std::string event = person.nextEvent();
-            if (event == "screen end") return;
-            if (event.starts_with("stimulus")) person.press("Left");
-        }
-    }
-
-    XServer server_;
-    TemporaryFolder folder_;
-};
-
 TEST_F(WindowSession, QuickDesignFromSetUpToEndRecordsWhatWasPressed) {
-    std::ofstream(folder_.path() / "pace.json")
-        << R"({"blank_s": 0.02, "fixation_s": 0.05, "too_fast_s": 0, "feedback_s": 0.02,
-               "break_every_trials": 40, "break_minimum_s": 0})";
+    const std::string pace = write("pace.json", R"({"blank_s": 0.02, "fixation_s": 0.05,
+        "too_fast_s": 0, "feedback_s": 0.02, "break_every_trials": 40, "break_minimum_s": 0})");
     WindowPerson person(server_, folder_.path(),
                         {"--design", "quick", "--data", data(), "--participant", "01", "--age",
-                         "33", "--presentation", (folder_.path() / "pace.json").string()});
+                         "33", "--presentation", pace});
     std::vector<std::string> pressed, screens;
     for (std::string event; event != "screen end";) {
         event = person.nextEvent();
@@ -120,16 +68,14 @@ TEST_F(WindowSession, YesNoTaskTakesTheSameKeys) {
     auto with = arguments();
     with.insert(with.end(), {"--task", "yes_no"});
     WindowPerson person(server_, folder_.path(), with);
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     answerAll(person);
     for (const Trial& row : rows()) EXPECT_EQ(row.response, records::Response::notSeen);
 }
 
 TEST_F(WindowSession, BackspaceTakesTheLastAnswerBack) {
     WindowPerson person(server_, folder_.path(), arguments());
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     for (int i = 0; i < 3; ++i) answer(person, "right");
     person.waitFor("stimulus");
     person.press("BackSpace");
@@ -148,8 +94,7 @@ TEST_F(WindowSession, BackspaceTakesTheLastAnswerBack) {
 TEST_F(WindowSession, PausesQuitsAndResumesWhereItWas) {
     {
         WindowPerson person(server_, folder_.path(), arguments());
-        person.waitFor("screen instructions");
-        person.press("Return");
+        agree(person);
         for (int i = 0; i < 3; ++i) answer(person, "left");
         person.waitFor("stimulus");
         person.press("Escape");
@@ -165,38 +110,15 @@ TEST_F(WindowSession, PausesQuitsAndResumesWhereItWas) {
     EXPECT_EQ(rows()[3].status, TrialStatus::repeated);
     EXPECT_EQ(study_app::replayTable(table()).session.answered(), 4u);
     WindowPerson person(server_, folder_.path(), arguments());
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     answerAll(person);
-    EXPECT_TRUE(study_app::replayTable(table()).session.finished());
-}
-
-TEST_F(WindowSession, KilledInMidTrialItLosesNothingAndGoesOnTheSame) {
-    Trial next;
-    {
-        WindowPerson person(server_, folder_.path(), arguments());
-        person.waitFor("screen instructions");
-        person.press("Return");
-        for (int i = 0; i < 4; ++i) answer(person, "left");
-        person.waitFor("stimulus");
-        person.kill();
-    }
-    ASSERT_EQ(rows().size(), 4u);
-    next = study_app::replayTable(table()).session.next();
-    WindowPerson person(server_, folder_.path(), arguments());
-    person.waitFor("screen instructions");
-    person.press("Return");
-    answerAll(person);
-    EXPECT_EQ(rows()[4].proposedRadiusPx, next.proposedRadiusPx);
-    EXPECT_EQ(rows()[4].side, next.side);
     EXPECT_TRUE(study_app::replayTable(table()).session.finished());
 }
 
 TEST_F(WindowSession, MashingKeysGivesOneAnswerPerTrial) {
     WindowPerson person(server_, folder_.path(), arguments(R"({"blank_s": 0.3, "fixation_s": 0.2,
         "too_fast_s": 0, "break_every_trials": 0, "practice": {"correct": 0}})"));
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     person.press("Left Right Left");  // before anything is on screen
     person.waitFor("stimulus 1");
     person.press("Right Left Left Right");
@@ -209,8 +131,7 @@ TEST_F(WindowSession, MashingKeysGivesOneAnswerPerTrial) {
 TEST_F(WindowSession, MarksWhatIsTooFastToBeAnAnswer) {
     WindowPerson person(server_, folder_.path(), arguments(R"({"blank_s": 0.02, "fixation_s": 0.05,
         "too_fast_s": 2, "break_every_trials": 0, "practice": {"correct": 0}})"));
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     EXPECT_EQ(answer(person, "left"), "row 1 too_fast");
     EXPECT_EQ(answer(person, "left"), "row 2 too_fast");
     EXPECT_EQ(rows()[0].condition, rows()[1].condition);
@@ -218,8 +139,7 @@ TEST_F(WindowSession, MarksWhatIsTooFastToBeAnAnswer) {
 
 TEST_F(WindowSession, RepeatsATrialInWhichTheWindowWasDisturbed) {
     WindowPerson person(server_, folder_.path(), arguments());
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     person.waitFor("stimulus");
     person.xdotool({"windowsize", person.window(), "1000", "700"});
     person.waitFor("screen pause");
@@ -232,8 +152,7 @@ TEST_F(WindowSession, DoesNotShowStimuliThatTheWindowCannotHold) {
     auto with = arguments();
     with.insert(with.end(), {"--window-size", "500", "400"});
     WindowPerson person(server_, folder_.path(), with);
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     person.waitFor("screen pause");
     person.xdotool({"windowsize", person.window(), "700", "400"});
     person.press("Return");
@@ -261,13 +180,11 @@ double noticedUpTo(const study_app::Design& design, const study_app::Condition& 
 }
 
 TEST_F(WindowSession, ARobotThatSeesOnlyPixelsHasTheThresholdsOfTheStimuli) {
-    std::ofstream(folder_.path() / "pace.json")
-        << R"({"blank_s": 0, "fixation_s": 0, "too_fast_s": 0, "feedback_s": 0,
-               "break_every_trials": 0})";
-    WindowPerson person(
-        server_, folder_.path(),
-        {"--design", "quick", "--data", data(), "--participant", "01", "--seed", "3", "--robot",
-         "--presentation", (folder_.path() / "pace.json").string()});
+    const std::string pace = write("pace.json", R"({"blank_s": 0, "fixation_s": 0,
+        "too_fast_s": 0, "feedback_s": 0, "break_every_trials": 0})");
+    WindowPerson person(server_, folder_.path(),
+                        {"--design", "quick", "--data", data(), "--participant", "01", "--seed",
+                         "3", "--robot", "--presentation", pace});
     person.waitFor("screen end");
     EXPECT_EQ(person.exitCode(), 0) << person.errors();
     const study_app::Session session = study_app::replayTable(table()).session;
@@ -285,8 +202,7 @@ TEST_F(WindowSession, ARobotThatSeesOnlyPixelsHasTheThresholdsOfTheStimuli) {
 
 TEST_F(WindowSession, WaitsWithoutUsingTheProcessor) {
     WindowPerson person(server_, folder_.path(), arguments());
-    person.waitFor("screen instructions");
-    person.press("Return");
+    agree(person);
     person.waitFor("stimulus");
     const double before = person.processorSeconds();
     ::usleep(2000000);
