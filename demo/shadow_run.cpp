@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "demo/shadow_run.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "demo/demand_glsl.h"
 #include "demo/picture.h"
 #include "records/slope_file.h"
 
@@ -14,8 +16,6 @@ namespace {
 
 namespace rc = resolution_controller;
 
-// Every sixteenth pixel, another one each frame.
-constexpr int kSampleSpacing = 4;
 // The controller lowers after 45 frames by default; an orbiting camera is not waited for.
 constexpr int kMostSettlingFrames = 64;
 
@@ -31,6 +31,19 @@ rc::Slope toController(const records::Slope& slope) {
             .encoding = toController(slope.encoding),
             .beta = slope.beta,
             .c90 = slope.c90.estimate};
+}
+
+rc::DemandHistogram histogramOf(
+    const std::array<std::uint32_t, renderer::DemandPass::kCounters>& counters) {
+    static_assert(sizeof counters == sizeof(rc::DemandHistogram));
+    rc::DemandHistogram histogram;
+    std::copy_n(counters.begin(), histogram.counts.size(), histogram.counts.begin());
+    histogram.rejected = counters.back();
+    return histogram;
+}
+
+renderer::DemandRule toRenderer(const rc::DemandRule& rule) {
+    return {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster};
 }
 
 }  // namespace
@@ -88,7 +101,8 @@ ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
     : frame_(frame),
       info_(info),
       settings_(settings),
-      controller_({.slope = settings.slope, .driverMaxSize = info.maxResolution}) {
+      controller_({.slope = settings.slope, .driverMaxSize = info.maxResolution}),
+      demand_(renderer::ShaderLibrary::embedded(), kDemandGlsl) {
     frameSettings_.technique = settings.technique;
     frameSettings_.parameters = settings.parameters;
     frameSettings_.radiusUv = static_cast<float>(settings.radiusUv);
@@ -100,13 +114,18 @@ ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
 }
 
 void ShadowRun::step(renderer::PassClock* clock, bool cut) {
+    draw(clock, cut ? View::another : View::goesOn);
+}
+
+void ShadowRun::draw(renderer::PassClock* clock, View view) {
     if (!settings_.resolution) {
-        // What joins renderer and controller: the last frame's demand chooses this frame's size.
-        const auto c = static_cast<float>(settings_.slope.c);
-        rc::DemandHistogram histogram;
-        for (const float footprint : frame_.footprintsUv(kSampleSpacing, frameNumber_, clock))
-            if (footprint > 0) histogram.add(rc::demand(c, frameSettings_.radiusUv, footprint));
-        const rc::Decision choice = controller_.update(histogram, {.cameraCut = cut});
+        // What joins renderer and controller: an earlier frame's demand chooses this frame's size.
+        const auto reading = demand_.newest();
+        rc::Frame about{.cameraCut = view != View::goesOn};
+        if (reading && view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
+        const rc::Decision choice = reading
+                                        ? controller_.update(histogramOf(reading->counters), about)
+                                        : controller_.hold(about);
         frameSettings_.resolution = choice.size;
         frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
 
@@ -119,19 +138,21 @@ void ShadowRun::step(renderer::PassClock* clock, bool cut) {
                    .artifactRatio = choice.artifactRatio};
     }
     frame_.render(frameSettings_, clock);
-    ++frameNumber_;
+    if (!settings_.resolution)
+        demand_.submit(frame_, toRenderer(rc::demandRule(controller_.settings())), clock);
 }
 
 int ShadowRun::settle() {
-    step(nullptr, true);
+    draw(nullptr, View::another);
     if (settings_.resolution) return 1;
-    // A still view starts as after a cut: the map's first sizes are the way to the right one, not
-    // sizes that were shown, so nothing waits to be lowered from them.
-    constexpr int kCutFrames = 4, kQuietFrames = 4;
+    // The map's first sizes are the way to the right one, not sizes that were shown, so nothing
+    // waits to be lowered from them.
+    constexpr int kUnseenFrames = 4, kQuietFrames = 4;
     int frames = 1;
     for (int quiet = 0; quiet < kQuietFrames && frames < kMostSettlingFrames; ++frames) {
         const int before = chosen_.resolution;
-        step(nullptr, frames < kCutFrames);
+        glFinish();  // so that every frame has the demand of the one before, on any machine
+        draw(nullptr, frames < kUnseenFrames ? View::sameUnseen : View::goesOn);
         quiet = chosen_.resolution == before && chosen_.need > 0 ? quiet + 1 : 0;
         if (chosen_.need == 0 && frames > 2) break;  // nothing to go by in this view
     }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "demo/spread.h"
+#include "renderer/demand_pass.h"
 #include "renderer/renderer.h"
 #include "resolution_controller/resolution_controller.h"
 
@@ -87,13 +88,18 @@ class ShadowRun {
     renderer::ByteImage picture(int samplesPerPixelEdge);
 
   private:
+    /// How the view goes with the one before: sameUnseen is the same still view again, of which
+    /// nothing was shown yet.
+    enum class View { goesOn, another, sameUnseen };
+    void draw(renderer::PassClock* clock, View view);
+
     renderer::Renderer& frame_;
     renderer::GlInfo info_;
     Settings settings_;
     resolution_controller::ResolutionController controller_;
     renderer::FrameSettings frameSettings_;
+    renderer::DemandPass demand_;
     ChosenResolution chosen_;
-    unsigned frameNumber_ = 0;
 };
 
 }  // namespace demo

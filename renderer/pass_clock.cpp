@@ -20,8 +20,8 @@ std::string_view toText(Pass pass) {
             return "lookup";
         case Pass::lit:
             return "lit";
-        case Pass::footprint:
-            return "footprint";
+        case Pass::demand:
+            return "demand";
     }
     return "unknown pass";
 }

@@ -30,52 +30,7 @@ FloatImage readFloats(const Texture& texture, GLenum format, int width, int heig
     return image;
 }
 
-/// Order in which the pixels of a cell are taken: steps that are coprime to the cell visit every
-/// pixel of it.
-glm::ivec2 pixelOfCell(int spacing, unsigned phase) {
-    const auto cell = static_cast<unsigned>(spacing * spacing);
-    unsigned step = cell / 2 + 1;
-    const auto coprime = [&](unsigned a) {
-        unsigned b = cell;
-        while (b != 0) std::swap(a %= b, b);
-        return a == 1;
-    };
-    while (!coprime(step)) ++step;
-    const unsigned pixel = phase % cell * step % cell;
-    return {static_cast<int>(pixel) % spacing, static_cast<int>(pixel) / spacing};
-}
-
 }  // namespace
-
-std::vector<float> Renderer::footprintsUv(int spacing, unsigned phase, PassClock* clock) {
-    if (spacing < 1 || spacing > 64)
-        throw std::invalid_argument("footprint spacing is " + std::to_string(spacing) +
-                                    " px, must be in [1, 64]");
-    if (!hasFrame_) return {};
-    const int width = std::max(widthPx_ / spacing, 1);
-    const int height = std::max(heightPx_ / spacing, 1);
-    if (width != footprintWidth_ || height != footprintHeight_) {
-        footprints_ = makeTexture(GL_R32F, width, height, "footprints");
-        footprintTarget_ = makeFramebuffer({footprints_.name()}, 0, "footprints");
-        footprintWidth_ = width;
-        footprintHeight_ = height;
-    }
-    if (clock != nullptr) clock->begin(Pass::footprint);
-    const glm::ivec2 pixel = pixelOfCell(spacing, phase);
-    glBindFramebuffer(GL_FRAMEBUFFER, footprintTarget_.name());
-    glViewport(0, 0, width, height);
-    glBindTextureUnit(0, positions_.name());
-    glBindTextureUnit(1, planes_.name());
-    glBindTextureUnit(2, visibility_.name());
-    glUseProgram(footprintProgram_.name());
-    glUniform1ui(1, lastFrameSoft_ ? 1 : 0);
-    glUniform3i(0, std::min(pixel.x, widthPx_ - 1), std::min(pixel.y, heightPx_ - 1), spacing);
-    glBindVertexArray(noGeometry_.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    std::vector<float> values = readFloats(footprints_, GL_RED, width, height, 1).values;
-    if (clock != nullptr) clock->end(Pass::footprint);
-    return values;
-}
 
 ByteImage Renderer::readLit() {
     ByteImage image(widthPx_, heightPx_, 3);

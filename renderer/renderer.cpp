@@ -107,8 +107,6 @@ Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
     : info_(info), shaders_(shaders) {
     depthProgram_ = makeProgram(shaders_, "passes/depth.vert", "passes/depth.frag", {});
     prepassProgram_ = makeProgram(shaders_, "passes/prepass.vert", "passes/prepass.frag", {});
-    footprintProgram_ =
-        makeProgram(shaders_, "passes/fullscreen.vert", "passes/footprint.frag", {});
     litProgram_ = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lit.frag", {});
     lookupPrograms_.resize(techniques().size());
 
@@ -192,6 +190,11 @@ void Renderer::resize(int widthPx, int heightPx) {
     widthPx_ = widthPx;
     heightPx_ = heightPx;
     hasFrame_ = false;
+}
+
+std::optional<Renderer::DemandInputs> Renderer::demandInputs() const {
+    if (!hasFrame_) return std::nullopt;
+    return DemandInputs{positions_.name(), planes_.name(), visibility_.name(), lastFrameSoft_};
 }
 
 std::size_t Renderer::targetBytes() const {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A frame: prepass (visible surfaces), depth pass (the light's map at N x N), lookup pass
 // (visibility of every pixel, into its own target), lit pass. It renders whatever N, radius and
-// technique it is given and knows nothing of how they were chosen; footprintsUv() is what a chooser
-// needs to know of the frame.
+// technique it is given and knows nothing of how they were chosen; demand_pass.h counts what a
+// chooser needs to know of the frame.
 //
 //   renderer::HeadlessContext context;
 //   renderer::Renderer renderer(context.info(), renderer::makeScene("yard"), 1280, 720);
@@ -62,13 +62,13 @@ class Renderer {
     /// error.
     void render(const FrameSettings& settings, PassClock* clock = nullptr);
 
-    /// For one pixel in spacing x spacing of the last frame: the edge of one screen pixel on the
-    /// map, as a fraction of its extent; 0 where no stair-step of the map can show. After a
-    /// technique without a kernel, that is sky, surfaces turned from the light and points outside
-    /// the map; after one with a kernel, also everything that is not in penumbra, where the
-    /// penumbra is wider than the pixel. Which pixel of each cell is taken rotates with `phase`.
-    /// Empty before the first frame. Waits for the GPU.
-    std::vector<float> footprintsUv(int spacing, unsigned phase, PassClock* clock = nullptr);
+    /// What DemandPass reads of the last frame, whose constants are still bound; absent before the
+    /// first one.
+    struct DemandInputs {
+        GLuint positions = 0, planes = 0, visibility = 0;
+        bool hasKernel = false;  ///< the technique's, of a radius above 0
+    };
+    std::optional<DemandInputs> demandInputs() const;
 
     ByteImage readLit();          ///< sRGB codes, 3 channels
     FloatImage readVisibility();  ///< 1 lit
@@ -119,7 +119,7 @@ class Renderer {
     bool lastFrameSoft_ = false;
     bool hasFrame_ = false;
 
-    Program depthProgram_, prepassProgram_, footprintProgram_, litProgram_;
+    Program depthProgram_, prepassProgram_, litProgram_;
     std::vector<Program>
         lookupPrograms_;  // one per row of the technique table, made when first used
 
@@ -129,9 +129,6 @@ class Renderer {
     Framebuffer mapTarget_;
     Texture positions_, planes_, normals_, albedos_, surfaceDepth_, visibility_, lit_;
     Framebuffer prepassTarget_, visibilityTarget_, litTarget_;
-    Texture footprints_;
-    Framebuffer footprintTarget_;
-    int footprintWidth_ = 0, footprintHeight_ = 0;
 };
 
 }  // namespace renderer

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <initializer_list>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -167,6 +168,24 @@ Shader compile(GLenum stage, const ShaderLibrary& library, const std::string& pa
     return shader;
 }
 
+// `label` shows in GL debuggers.
+Program link(std::initializer_list<const Shader*> shaders, const std::string& names,
+             const std::string& label, const ShaderOptions& options) {
+    Program program(glCreateProgram());
+    for (const Shader* shader : shaders) glAttachShader(program.name(), shader->name());
+    glLinkProgram(program.name());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        std::array<GLchar, 4096> log{};
+        glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+        throw std::runtime_error("program of " + names + " does not link:\n" + log.data() +
+                                 definesInForce(options));
+    }
+    glObjectLabel(GL_PROGRAM, program.name(), -1, label.c_str());
+    return program;
+}
+
 }  // namespace
 
 const ShaderLibrary& ShaderLibrary::embedded() {
@@ -222,20 +241,13 @@ Program makeProgram(const ShaderLibrary& library, const std::string& vertexPath,
                     const std::string& fragmentPath, const ShaderOptions& options) {
     const Shader vertex = compile(GL_VERTEX_SHADER, library, vertexPath, options);
     const Shader fragment = compile(GL_FRAGMENT_SHADER, library, fragmentPath, options);
-    Program program(glCreateProgram());
-    glAttachShader(program.name(), vertex.name());
-    glAttachShader(program.name(), fragment.name());
-    glLinkProgram(program.name());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
-    if (linked != GL_TRUE) {
-        std::array<GLchar, 4096> log{};
-        glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-        throw std::runtime_error("shaders " + vertexPath + " and " + fragmentPath +
-                                 " do not link:\n" + log.data() + definesInForce(options));
-    }
-    glObjectLabel(GL_PROGRAM, program.name(), -1, fragmentPath.c_str());
-    return program;
+    return link({&vertex, &fragment}, vertexPath + " and " + fragmentPath, fragmentPath, options);
+}
+
+Program makeComputeProgram(const ShaderLibrary& library, const std::string& path,
+                           const ShaderOptions& options) {
+    const Shader shader = compile(GL_COMPUTE_SHADER, library, path, options);
+    return link({&shader}, path, path, options);
 }
 
 }  // namespace renderer

@@ -64,6 +64,10 @@ std::string locatedLog(const std::string& log, const std::vector<std::string>& f
 Program makeProgram(const ShaderLibrary& library, const std::string& vertexPath,
                     const std::string& fragmentPath, const ShaderOptions& options);
 
+/// The same of a compute shader.
+Program makeComputeProgram(const ShaderLibrary& library, const std::string& path,
+                           const ShaderOptions& options);
+
 /// In generated code: the files that the build found.
 const ShaderLibrary::Files& embeddedShaderFiles();
 

@@ -71,7 +71,7 @@ TEST(ShadowDemo, WritesAPictureAndItsStats) {
     EXPECT_FALSE(stats.at("reason").get<std::string>().empty());
     EXPECT_EQ(stats.at("parameters").at("bias_texels"), 0.5);
     EXPECT_EQ(stats.at("slope").at("c"), 3.47);
-    for (const char* pass : {"depth", "prepass", "lookup", "lit", "footprint"})
+    for (const char* pass : {"depth", "prepass", "lookup", "lit", "demand"})
         EXPECT_GT(stats.at("passes_ms").at(pass).at("median").get<double>(), 0) << pass;
     const int n = stats.at("resolution");
     EXPECT_EQ(stats.at("map_bytes").get<int>(), 4 * n * n);

@@ -363,39 +363,6 @@ TEST(Frame, RefusesSettingsOutOfRange) {
     EXPECT_EQ(message({.resolution = 8}), "nothing was thrown") << "and it goes on working";
 }
 
-// In penumbra, or anywhere where the penumbra is narrower than the pixel and falls between samples.
-TEST(Frame, FootprintsAreThoseOfThePixelsWhereTheMapCanShow) {
-    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 64, 36);
-    for (const Technique& technique : renderer::techniques()) {
-        frame.render({.technique = &technique, .resolution = 64, .radiusUv = 0.01F});
-        const tests::PixelReceivers pixels(frame);
-        const FloatImage visibility = frame.readVisibility();
-        std::vector<double> expected;
-        for (int y = 0; y < 36; ++y)
-            for (int x = 0; x < 64; ++x) {
-                const auto receiver = pixels.at(x, y);
-                const bool inPenumbra = visibility.at(x, y) > 0 && visibility.at(x, y) < 1;
-                const bool narrow = receiver && receiver->footprintUv > 0.01;  // the radius
-                const bool matters = receiver && receiver->facesLight &&
-                                     (inPenumbra || narrow || !technique.soft) &&
-                                     receiver->uv.x >= 0 && receiver->uv.x <= 1 &&
-                                     receiver->uv.y >= 0 && receiver->uv.y <= 1;
-                expected.push_back(matters ? receiver->footprintUv : 0);
-            }
-        // Sixteen phases of a grid with spacing 4 visit every pixel once.
-        std::vector<double> found;
-        for (unsigned phase = 0; phase < 16; ++phase)
-            for (const float footprint : frame.footprintsUv(4, phase)) found.push_back(footprint);
-        ASSERT_EQ(found.size(), expected.size());
-        std::sort(found.begin(), found.end());
-        std::sort(expected.begin(), expected.end());
-        EXPECT_GT(expected.back(), 0) << technique.name;
-        // float32 on the GPU; grazing pixels lose some bits.
-        for (std::size_t i = 0; i < found.size(); ++i)
-            EXPECT_NEAR(found[i], expected[i], 1e-5 + 1e-3 * expected[i]) << technique.name;
-    }
-}
-
 TEST(Frame, ClockTimesThePassesThatTheFrameHad) {
     renderer::Renderer frame(gl(), renderer::makeScene("yard"), 64, 36);
     renderer::PassClock clock(gl());
@@ -404,12 +371,8 @@ TEST(Frame, ClockTimesThePassesThatTheFrameHad) {
     using renderer::Pass;
     for (const Pass pass : {Pass::depth, Pass::prepass, Pass::lookup})
         EXPECT_GT(times[static_cast<std::size_t>(pass)], 0);
-    for (const Pass pass : {Pass::lit, Pass::footprint})
+    for (const Pass pass : {Pass::lit, Pass::demand})
         EXPECT_EQ(times[static_cast<std::size_t>(pass)], 0);
-    frame.footprintsUv(4, 0, &clock);
-    times = clock.collectMs();
-    EXPECT_GT(times[static_cast<std::size_t>(Pass::footprint)], 0);
-    EXPECT_EQ(times[static_cast<std::size_t>(Pass::depth)], 0);
 }
 
 }  // namespace
