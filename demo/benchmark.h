@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "demo/error_metrics.h"
+#include "demo/loaded_slope.h"
 #include "demo/picture.h"
 #include "demo/shadow_run.h"
 

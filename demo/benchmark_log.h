@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "demo/benchmark.h"
+#include "demo/loaded_slope.h"
 #include "records/run_context.h"
 
 namespace demo {

@@ -40,7 +40,7 @@ Json slopeJson(const DemoStats& stats) {
             {"encoding", encodingJson(slope.encoding)},
             {"beta", slope.beta},
             {"text", stats.slope.text},
-            {"file", stats.slopeFile.empty() ? Json() : Json(stats.slopeFile)},
+            {"file", stats.slope.file.empty() ? Json() : Json(stats.slope.file)},
             {"notes", stats.slope.notes}};
 }
 

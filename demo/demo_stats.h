@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/loaded_slope.h"
 #include "demo/shadow_run.h"
 #include "records/run_context.h"
 
@@ -21,7 +22,6 @@ struct DemoStats {
     ChosenResolution chosen;
     int settlingFrames = 0;
     LoadedSlope slope;
-    std::string slopeFile;  ///< empty: the published slope
     double mapExtentM = 0;
     std::string timing;  ///< "timer queries", "finish and steady clock"
     Spread wholeFrameMs;

@@ -13,7 +13,8 @@ struct Options {
     std::vector<std::string> scenes, techniques;
     std::vector<std::string> resolutions = {"auto", "512", "2048", "4096"};
     std::filesystem::path out;
-    std::optional<std::filesystem::path> slope, fit;
+    demo::SlopeOptions slope;
+    std::optional<std::filesystem::path> fit;
     int width = 640, height = 360, rounds = 5;
     bool quick = false;
     std::vector<std::string> command;
@@ -71,8 +72,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--out", options.out, "folder of the report, the table and the pictures")
         ->required();
-    app.add_option("--slope", options.slope,
-                   "slope.json of a study; default: the published c = 3.47");
+    demo::addSlopeOptions(app, options.slope);
     app.add_option("--fit", options.fit,
                    "folder of fit_slope whose slope and figures go into the report");
     app.add_option("--width", options.width, "viewport width in px")->capture_default_str();

@@ -16,7 +16,7 @@ struct Options {
     std::vector<std::string> parameters;
     std::string resolution = "auto";
     std::optional<double> radiusM, radiusUv;
-    std::optional<std::filesystem::path> slope;
+    demo::SlopeOptions slope;
     bool headless = false;
     std::optional<int> frames;
     int width = 1280, height = 720;
@@ -81,7 +81,6 @@ void report(const Options& options, const renderer::GlInfo& info, renderer::Rend
     stats.softness = demo::chooseSoftness(frame, options.radiusM, options.radiusUv);
     stats.settlingFrames = settlingFrames;
     stats.slope = slope;
-    stats.slopeFile = options.slope ? options.slope->string() : "";
     stats.mapExtentM = frame.window().extentM;
     stats.context.glRenderer = info.renderer;
     stats.context.glVersion = info.version;
@@ -119,7 +118,7 @@ void demonstrate(const Options& options) {
         demo::parseResolution(options.resolution, "--resolution");
     const renderer::Scene scene = renderer::makeScene(options.scene);
     const demo::LoadedSlope slope = demo::loadSlope(options.slope);
-    if (options.slope)  // of the published default the stats say as much
+    if (options.slope.file)  // of the published default the stats say as much
         for (const std::string& note : slope.notes)
             std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
 
@@ -177,8 +176,7 @@ int main(int argc, char** argv) {
                                   "softness: radius of the blur in m; default: the scene's");
     app.add_option("--radius-uv", options.radiusUv, "the same as a fraction of the map's extent")
         ->excludes(radius);
-    app.add_option("--slope", options.slope,
-                   "slope.json of a study; default: the published c = 3.47");
+    demo::addSlopeOptions(app, options.slope);
     app.add_flag("--headless", options.headless, "no window: render, measure, write, end");
     app.add_option("--frames", options.frames,
                    "headless: frames to time (default 10); window: frames after which to close");

@@ -9,7 +9,6 @@
 
 #include "demo/demand_glsl.h"
 #include "demo/picture.h"
-#include "records/slope_file.h"
 
 namespace demo {
 namespace {
@@ -18,20 +17,6 @@ namespace rc = resolution_controller;
 
 // The controller lowers after 45 frames by default; an orbiting camera is not waited for.
 constexpr int kMostSettlingFrames = 64;
-
-rc::Encoding toController(const std::optional<records::Encoding>& encoding) {
-    if (!encoding) return rc::Encoding::unknown;
-    return *encoding == records::Encoding::srgb ? rc::Encoding::srgb : rc::Encoding::code;
-}
-
-rc::Slope toController(const records::Slope& slope) {
-    return {.c = slope.c.estimate,
-            .criterion = slope.criterion,
-            .task = slope.task == records::Task::twoAfc ? rc::Task::twoAfc : rc::Task::yesNo,
-            .encoding = toController(slope.encoding),
-            .beta = slope.beta,
-            .c90 = slope.c90.estimate};
-}
 
 rc::DemandHistogram histogramOf(
     const std::array<std::uint32_t, renderer::DemandPass::kCounters>& counters) {
@@ -56,29 +41,6 @@ ResolutionOption parseResolution(const std::string& text, const std::string& opt
         throw std::invalid_argument(option + " is \"" + text +
                                     "\", must be auto or a whole number of texels from 1");
     return resolution;
-}
-
-LoadedSlope loadSlope(const std::optional<std::filesystem::path>& file) {
-    LoadedSlope loaded;
-    if (file) {
-        const records::Slope slope = records::readSlope(*file);
-        loaded.slope = toController(slope);
-        loaded.text = records::describe(slope);
-        if (slope.kernel != "disc")
-            loaded.notes.push_back("the slope was measured with the kernel \"" + slope.kernel +
-                                   "\"; the techniques here filter with a disc");
-    } else {
-        loaded.text = rc::describe(loaded.slope) + ", as published; no slope file was given";
-    }
-    if (loaded.slope.encoding == rc::Encoding::unknown)
-        loaded.notes.push_back(
-            "the slope's tables do not say whether they were filtered in light or in code values; "
-            "shadows here are filtered in light");
-    if (loaded.slope.encoding == rc::Encoding::code)
-        loaded.notes.push_back(
-            "the slope was measured with filtering in code values; shadows here are filtered in "
-            "light");
-    return loaded;
 }
 
 Softness chooseSoftness(const renderer::Renderer& frame, std::optional<double> radiusM,

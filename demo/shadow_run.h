@@ -21,16 +21,6 @@ using ResolutionOption = std::optional<int>;
 /// otherwise.
 ResolutionOption parseResolution(const std::string& text, const std::string& option);
 
-/// The slope of a study, as the controller takes it, or the published one without a file. `notes`
-/// gets a sentence for whatever the slope was measured with that this renderer does not do. Throws
-/// what records::readSlope throws.
-struct LoadedSlope {
-    resolution_controller::Slope slope;
-    std::string text;  ///< c with its terms, for people
-    std::vector<std::string> notes;
-};
-LoadedSlope loadSlope(const std::optional<std::filesystem::path>& file);
-
 struct Softness {
     double radiusM = 0;   ///< in the scene, across the light
     double radiusUv = 0;  ///< as a fraction of the map's extent

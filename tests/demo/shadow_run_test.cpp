@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "demo/demo_window.h"
+#include "demo/loaded_slope.h"
 #include "renderer/scene.h"
 
 namespace {
@@ -180,6 +181,17 @@ TEST(WindowKeys, ChangeWhatTheySay) {
     demo::applyKey('S', state);
     EXPECT_EQ(state.scene, 1U);
     EXPECT_FALSE(demo::applyKey('Q', state));
+}
+
+TEST(LoadedSlope, IsThePublishedOneForTheAudienceAskedFor) {
+    const demo::LoadedSlope measured = demo::loadSlope({});
+    EXPECT_EQ(measured.slope.c, 3.47);
+    EXPECT_THAT(measured.notes, testing::ElementsAre(HasSubstr("other encoding")));
+    const demo::LoadedSlope hidden = demo::loadSlope({.file = {}, .audience = {.detection = 0.10}});
+    EXPECT_NEAR(hidden.slope.c / 3.47, 1.92, 0.005) << "(ln(1 - .6465) / ln(.9))^(1 / 3.5)";
+    EXPECT_THAT(hidden.text, HasSubstr("at most 10 % of looks"));
+    const demo::LoadedSlope many = demo::loadSlope({.file = {}, .audience = {.people = 0.9}});
+    EXPECT_THAT(many.notes, testing::Contains(HasSubstr("how observers differ")));
 }
 
 }  // namespace
