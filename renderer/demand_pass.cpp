@@ -8,14 +8,6 @@
 namespace renderer {
 namespace {
 
-constexpr char kDemandFile[] = "demand.glsl";
-
-ShaderLibrary with(const ShaderLibrary& shaders, const std::string& demandGlsl) {
-    ShaderLibrary::Files files = shaders.files();
-    files[kDemandFile] = demandGlsl;
-    return ShaderLibrary(std::move(files));
-}
-
 /// Order in which the pixels of a cell are taken: steps that are coprime to the cell visit every
 /// pixel of it, and a step of about half the cell goes far from one frame to the next.
 glm::ivec2 pixelOfCell(int edge, std::uint64_t turn) {
@@ -28,9 +20,15 @@ glm::ivec2 pixelOfCell(int edge, std::uint64_t turn) {
 
 }  // namespace
 
+ShaderLibrary withDemand(const ShaderLibrary& shaders, const std::string& demandGlsl) {
+    ShaderLibrary::Files files = shaders.files();
+    files[kDemandInclude] = demandGlsl;
+    return ShaderLibrary(std::move(files));
+}
+
 DemandPass::DemandPass(const ShaderLibrary& shaders, const std::string& demandGlsl)
-    : program_(makeComputeProgram(with(shaders, demandGlsl), "passes/demand.comp",
-                                  {.defines = {}, .substitutions = {{"demand", kDemandFile}}})) {
+    : program_(makeComputeProgram(withDemand(shaders, demandGlsl), "passes/demand.comp",
+                                  {.defines = {}, .substitutions = {{"demand", kDemandInclude}}})) {
     counters_ = makeBuffer(nullptr, kSlotBytes, 0, "demand counters");
     constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     ring_ = makeBuffer(nullptr, kRing * kSlotBytes, access, "demand ring");
@@ -50,8 +48,9 @@ void DemandPass::release(Slot& slot) {
 }
 
 void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock* clock) {
-    const auto inputs = frame.demandInputs();
+    const auto inputs = frame.outputs();
     if (!inputs) return;
+    frame.bindConstants();
     if (clock != nullptr) clock->begin(Pass::demand);
     const std::uint32_t zero = 0;
     glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);

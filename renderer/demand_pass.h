@@ -20,6 +20,10 @@
 
 namespace renderer {
 
+/// The name under which a pass includes the formula, and the shaders with the formula among them.
+inline constexpr char kDemandInclude[] = "demand.glsl";
+ShaderLibrary withDemand(const ShaderLibrary& shaders, const std::string& demandGlsl);
+
 /// The numbers of the formula, in the order in which its GLSL struct has them.
 struct DemandRule {
     float c = 3.47F;             ///< slope of r = c a

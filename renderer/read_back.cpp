@@ -32,13 +32,17 @@ FloatImage readFloats(const Texture& texture, GLenum format, int width, int heig
 
 }  // namespace
 
-ByteImage Renderer::readLit() {
-    ByteImage image(widthPx_, heightPx_, 3);
+ByteImage readColours(const Texture& texture, int width, int height) {
+    ByteImage image(width, height, 3);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureSubImage(lit_.name(), 0, 0, 0, 0, widthPx_, heightPx_, 1, GL_RGB, GL_UNSIGNED_BYTE,
+    glGetTextureSubImage(texture.name(), 0, 0, 0, 0, width, height, 1, GL_RGB, GL_UNSIGNED_BYTE,
                          static_cast<GLsizei>(image.values.size()), image.values.data());
     flipRows(image);
     return image;
+}
+
+ByteImage Renderer::readLit() {
+    return readColours(lit_, widthPx_, heightPx_);
 }
 
 FloatImage Renderer::readVisibility() {

@@ -54,9 +54,8 @@ Buffer makeUniformBlock(const Block& block, std::string_view label) {
 }
 
 template <class Block>
-void bindUniformBlock(const Buffer& buffer, const Block& block, unsigned binding) {
+void fillUniformBlock(const Buffer& buffer, const Block& block) {
     glNamedBufferSubData(buffer.name(), 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer.name());
 }
 
 void bindTextures(std::initializer_list<GLuint> names) {
@@ -192,9 +191,16 @@ void Renderer::resize(int widthPx, int heightPx) {
     hasFrame_ = false;
 }
 
-std::optional<Renderer::DemandInputs> Renderer::demandInputs() const {
+std::optional<Renderer::Outputs> Renderer::outputs() const {
     if (!hasFrame_) return std::nullopt;
-    return DemandInputs{positions_.name(), planes_.name(), visibility_.name(), lastFrameSoft_};
+    return Outputs{positions_.name(), planes_.name(), visibility_.name(), lit_.name(),
+                   lastFrameSoft_};
+}
+
+void Renderer::bindConstants() const {
+    glBindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, viewBlock_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kLookBinding, lookBlock_.name());
 }
 
 std::size_t Renderer::targetBytes() const {
@@ -266,9 +272,10 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     shadow_.parameters[0] = glm::make_vec4(values.data());
     shadow_.parameters[1] = glm::make_vec4(values.data() + 4);
 
-    bindUniformBlock(viewBlock_, view_, kViewBinding);
-    bindUniformBlock(shadowBlock_, shadow_, kShadowBinding);
-    bindUniformBlock(lookBlock_, lookOf(scene_.sun), kLookBinding);
+    fillUniformBlock(viewBlock_, view_);
+    fillUniformBlock(shadowBlock_, shadow_);
+    fillUniformBlock(lookBlock_, lookOf(scene_.sun));
+    bindConstants();
 }
 
 const Program& Renderer::lookupProgram(const Technique& technique) {

@@ -37,6 +37,9 @@ struct FrameSettings {
     void validate(const GlInfo& info) const;
 };
 
+/// A texture of 8-bit codes as a picture, 3 channels. Waits for the GPU.
+ByteImage readColours(const Texture& texture, int width, int height);
+
 class Renderer {
   public:
     /// Compiles every pass. Throws std::runtime_error for a shader that does not compile.
@@ -62,13 +65,15 @@ class Renderer {
     /// error.
     void render(const FrameSettings& settings, PassClock* clock = nullptr);
 
-    /// What DemandPass reads of the last frame, whose constants are still bound; absent before the
-    /// first one.
-    struct DemandInputs {
-        GLuint positions = 0, planes = 0, visibility = 0;
+    /// Textures of the last frame, for passes that read it (demand_pass.h, view_pass.h); absent
+    /// before the first one.
+    struct Outputs {
+        GLuint positions = 0, planes = 0, visibility = 0, lit = 0;
         bool hasKernel = false;  ///< the technique's, of a radius above 0
     };
-    std::optional<DemandInputs> demandInputs() const;
+    std::optional<Outputs> outputs() const;
+    /// Binds the last frame's uniform blocks for such a pass.
+    void bindConstants() const;
 
     ByteImage readLit();          ///< sRGB codes, 3 channels
     FloatImage readVisibility();  ///< 1 lit
