@@ -21,8 +21,6 @@ using records::Trial;
 using records::TrialTable;
 using records::TrialType;
 
-constexpr const char* kNoiseColumn = "noise_levels";
-
 std::string numberText(double value) {
     std::ostringstream out;
     out << std::setprecision(6) << value;
@@ -80,29 +78,6 @@ class LeftOut {
     std::map<std::string, int> counts_;
 };
 
-std::optional<std::size_t> columnOf(const TrialTable& table, const std::string& name) {
-    const auto found = std::find(table.extraColumns.begin(), table.extraColumns.end(), name);
-    if (found == table.extraColumns.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - table.extraColumns.begin());
-}
-
-bool hasNoise(const TrialTable& table, const Trial& trial, std::size_t column) {
-    const std::string& text = trial.extra[column];
-    if (text == "n/a") return false;
-    std::size_t used = 0;
-    double level = 0;
-    try {
-        level = std::stod(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
-    }
-    if (used != text.size() || !std::isfinite(level)) {
-        throw std::runtime_error(where(table, trial) + ", column " + kNoiseColumn + ": '" + text +
-                                 "': must be a number or n/a");
-    }
-    return level > 0;
-}
-
 // Trials by observer and condition, before indices are given.
 struct Gathered {
     struct Person {
@@ -116,7 +91,6 @@ struct Gathered {
 
 void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& notices) {
     LeftOut leftOut;
-    const auto noise = columnOf(table, kNoiseColumn);
     const bool staircases =
         std::any_of(table.trials.begin(), table.trials.end(),
                     [](const Trial& trial) { return trial.staircase.has_value(); });
@@ -126,7 +100,7 @@ void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& n
             leftOut.add("status " + std::string(records::toText(trial.status)));
             continue;
         }
-        if (noise && hasNoise(table, trial, *noise)) {
+        if (trial.noiseLevels.value_or(0) > 0) {
             leftOut.add("image noise was added (noise_levels > 0)");
             continue;
         }

@@ -69,6 +69,7 @@ constexpr NumberRule kTrialNumberRule = between(1, std::numeric_limits<int>::max
 constexpr NumberRule kWholeRule =
     between(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
 constexpr NumberRule kQuarterRule = between(0, 3);
+constexpr NumberRule kSeedRule = between(0, std::numeric_limits<int>::max());
 constexpr NumberRule kAngleRule = between(-360, 360);
 
 template <auto Member, const NumberRule& Rule>
@@ -178,7 +179,7 @@ const TrialColumn kColumns[] = {
     {"proposed_radius_px", kRequired, "Filter radius that the staircase proposed, before display limits", "px", {}, STAIRWELL_NUMBER(proposedRadiusPx, kPositive)},
     {"filter_radius_px", kRequired, "Filter radius r that was shown", "px", {}, STAIRWELL_NUMBER(filterRadiusPx, kFinite)},
     {"response", kRequired, "Answer of the observer", "",
-     {{"left", "2afc: the left panel"}, {"right", "2afc: the right panel"}, {"seen", "yes_no: an artifact"}, {"not_seen", "yes_no: none, or undecided"}},
+     {{"left", "2afc: the left panel"}, {"right", "2afc: the right panel"}, {"seen", "yes_no: an artifact"}, {"not_seen", "yes_no: none, or undecided"}, {"n/a", "none: disturbed before an answer"}},
      STAIRWELL_WORD(response, kResponseWords)},
     {"correct", kRequired, "Whether the answer was right (yes_no: seen on artifact, not_seen on reference)", "", {{"0", "wrong"}, {"1", "right"}}, STAIRWELL_FLAG(correct)},
     {"response_time_s", kRequired, "Time from the buffer swap that showed the stimulus to the answer", "s", {}, STAIRWELL_NUMBER(responseTimeS, kNotNegative)},
@@ -195,6 +196,13 @@ const TrialColumn kColumns[] = {
     {"onset_s", kOptional, "Stimulus onset since the start of the session", "s", {}, STAIRWELL_NUMBER(onsetS, kFinite)},
     {"threshold_mean", kOptional, "Staircase: posterior mean of the threshold x0 = log10(a/r) after this trial", "log10", {}, STAIRWELL_NUMBER(thresholdMean, kFinite)},
     {"threshold_sd", kOptional, "Staircase: posterior standard deviation of x0", "log10", {}, STAIRWELL_NUMBER(thresholdSd, kNotNegative)},
+    {"noise_levels", kOptional, "Standard deviation of the noise added to the image, in 8-bit codes; n/a or 0: none", "", {}, STAIRWELL_NUMBER(noiseLevels, kNotNegative)},
+    {"dither", kOptional, "Whether codes were rounded at random instead of to the nearest; n/a: no", "", {{"0", "no"}, {"1", "yes"}}, STAIRWELL_FLAG(dither)},
+    {"image_seed", kOptional, "Seed of the image's turned taps, noise and dither; n/a: it has none", "", {}, STAIRWELL_NUMBER(imageSeed, kSeedRule)},
+    {"frame", kOptional, "File of the rendered frame with the artifact, in the design's folder", "", {}, STAIRWELL_TEXT(frame)},
+    {"click_x_px", kOptional, "Where the observer saw the artifact: distance from the image's left edge", "px", {}, STAIRWELL_NUMBER(clickXPx, kNotNegative)},
+    {"click_y_px", kOptional, "Where the observer saw the artifact: distance from the image's upper edge", "px", {}, STAIRWELL_NUMBER(clickYPx, kNotNegative)},
+    {"click_distance_px", kOptional, "Distance of the click from the nearest riser of the artifact; n/a where none is shown", "px", {}, STAIRWELL_NUMBER(clickDistancePx, kNotNegative)},
 };
 // clang-format on
 
@@ -213,22 +221,36 @@ std::string brokenTextRule(std::string_view cell) {
     return isPlainText(cell) ? kFine : "must be UTF-8 text without control characters";
 }
 
-std::optional<BrokenRule> brokenRule(const Trial& trial) {
+// What must hold of the answer alone.
+static std::optional<BrokenRule> brokenAnswerRule(const Trial& trial) {
+    const bool isArtifact = trial.type == TrialType::artifact;
+    if (!trial.response) {
+        if (trial.status == TrialStatus::ok)
+            return BrokenRule{"response", "must be an answer where the status is ok"};
+        if (trial.correct) return BrokenRule{"correct", "must be 0 without a response"};
+        return std::nullopt;
+    }
     const bool isSideAnswer = trial.response == Response::left || trial.response == Response::right;
     if (isSideAnswer != (trial.task == Task::twoAfc))
         return BrokenRule{"response", trial.task == Task::twoAfc
                                           ? "must be left or right in the task 2afc"
                                           : "must be seen or not_seen in the task yes_no"};
-    const bool isArtifact = trial.type == TrialType::artifact;
-    if (isArtifact && !kPositive.holds(trial.filterRadiusPx))
-        return BrokenRule{"filter_radius_px", kPositive.text() + " on an artifact trial"};
     if (trial.task == Task::yesNo &&
         trial.correct != ((trial.response == Response::seen) == isArtifact))
         return BrokenRule{"correct",
                           "must be 1 for seen on artifact or not_seen on reference, 0 otherwise"};
     if (trial.task == Task::twoAfc && isArtifact && trial.side &&
-        trial.correct != (toText(trial.response) == *trial.side))
+        trial.correct != (toText(*trial.response) == *trial.side))
         return BrokenRule{"correct", "must be 1 where response is the side of the artifact"};
+    return std::nullopt;
+}
+
+std::optional<BrokenRule> brokenRule(const Trial& trial) {
+    if (auto broken = brokenAnswerRule(trial)) return broken;
+    if (trial.type == TrialType::artifact && !kPositive.holds(trial.filterRadiusPx))
+        return BrokenRule{"filter_radius_px", kPositive.text() + " on an artifact trial"};
+    if (trial.clickXPx.has_value() != trial.clickYPx.has_value())
+        return BrokenRule{"click_y_px", "must be there exactly where click_x_px is"};
     if (trial.pattern == Pattern::line && !trial.angleDeg)
         return BrokenRule{"angle_deg", "must be a number for the pattern line"};
     return std::nullopt;

@@ -84,19 +84,19 @@ struct Trial {
     std::optional<double> angleDeg;  ///< of the true silhouette; stair 45, step atan(a/L)
     double artifactPx = 0;           ///< a, screen px, > 0
     double litLevel = 1;             ///< share of full white, in [0, 1]
-    std::string kernel;              ///< "disc", "box", "gaussian"
+    std::string kernel;              ///< "disc", "box", "gaussian", "poisson16"; frames: technique
     Task task = Task::twoAfc;
     std::optional<double> proposedRadiusPx;  ///< by the staircase, before display limits
-    double filterRadiusPx = 0;  ///< r that was shown, screen px; > 0 on artifact trials
-    Response response = Response::left;
-    bool correct =
-        false;  ///< 2AFC: the side was right; yes/no: seen on artifact, not_seen on reference
+    double filterRadiusPx = 0;         ///< r that was shown, screen px; > 0 on artifact trials
+    std::optional<Response> response;  ///< none on a trial that was disturbed before an answer
+    bool correct = false;  ///< 2AFC: the side was right; yes/no: seen on artifact, not_seen on
+                           ///< reference; without a response false
     std::optional<double> responseTimeS;  ///< seconds from the swap that showed the stimulus
 
     // Written by study_app, optional for a reader:
     TrialStatus status = TrialStatus::ok;
-    std::optional<std::string> staircase;  ///< name of the staircase that learns from the trial; none on
-                                           ///< catch trials (study_app/session.h)
+    std::optional<std::string> staircase;  ///< name of the staircase that learns from the trial;
+                                           ///< none on catch trials (study_app/session.h)
     std::optional<Encoding> encoding;
     std::optional<std::string> side;        ///< side of the artifact, "left" or "right"
     std::optional<int> orientationQuarter;  ///< quarter turns, 0..3
@@ -106,6 +106,12 @@ struct Trial {
     std::optional<double> onsetS;           ///< stimulus onset, seconds since the session's start
     std::optional<double> thresholdMean;    ///< posterior mean of x0 = log10(a/r) after this trial
     std::optional<double> thresholdSd;      ///< posterior sd of x0, log10 units
+    std::optional<double> noiseLevels;      ///< sd of the noise added to the image, 8-bit codes
+    std::optional<bool> dither;             ///< codes rounded at random; written 0 or 1
+    std::optional<int> imageSeed;           ///< of turned taps, noise and dither: redraws them
+    std::optional<std::string> frame;       ///< file name of the rendered frame with the artifact
+    std::optional<double> clickXPx, clickYPx;  ///< on the image, from its left and upper edge
+    std::optional<double> clickDistancePx;     ///< from there to the nearest riser of the artifact
 
     std::vector<std::string> extra;  ///< cells of TrialTable::extraColumns, as text
 

@@ -11,6 +11,7 @@
 // Gaussian never quite gets there.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -30,14 +31,19 @@ inline double encodeSlope(double v, Encoding encoding) {
     return v <= 0.0031308 ? 12.92 : 1.055 / 2.4 * std::pow(v, 1 / 2.4 - 1);
 }
 
+inline constexpr double kHalfUp = 0.5 + 1e-9;
+
 inline std::uint8_t displayCode(double v, double litLevel, Encoding encoding) {
-    return static_cast<std::uint8_t>(encode(v, encoding) * (255 * litLevel) + (0.5 + 1e-9));
+    return static_cast<std::uint8_t>(encode(v, encoding) * (255 * litLevel) + kHalfUp);
 }
 
-/// The same with a random number, uniform in [0, 1), in place of 1/2: the mean code is then exact,
+/// The same with `added` codes of noise, held within 0..255, and with another rounding. Dither
+/// rounds by a random number, uniform in [0, 1), in place of kHalfUp: the mean code is then exact,
 /// and no contour shows where a wide ramp changes from one code to the next.
-inline std::uint8_t ditheredCode(double v, double litLevel, Encoding encoding, double uniform) {
-    return static_cast<std::uint8_t>(encode(v, encoding) * (255 * litLevel) + uniform);
+inline std::uint8_t roundedCode(double v, double litLevel, Encoding encoding, double added,
+                                double rounding) {
+    const double code = std::floor(encode(v, encoding) * (255 * litLevel) + added + rounding);
+    return static_cast<std::uint8_t>(std::clamp(code, 0.0, 255.0));
 }
 
 /// Throws std::invalid_argument unless the lit level is in [0, 1].

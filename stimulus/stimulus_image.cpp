@@ -2,7 +2,9 @@
 #include "stimulus/stimulus_image.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "stimulus/sentence.h"
@@ -25,7 +27,51 @@ void validate(const StimulusOptions& o) {
     const double texels = 2 * reach(o.kernel.shape) * o.kernel.radiusPx / o.silhouette.artifactPx;
     require(texels <= 20000, "number of texels across the kernel", texels, "",
             "must be at most 20000 (smaller radius or larger artifact)");
+    require(!o.taps || (o.taps->taps >= 1 && o.taps->taps <= kMostTaps), "number of taps",
+            o.taps ? o.taps->taps : 0, "", "must be in 1..256");
+    require(!o.taps || o.kernel.shape == KernelShape::disc, "kernel of turned taps",
+            static_cast<double>(o.kernel.shape), "", "must be the disc");
+    require(o.noiseLevels >= 0 && o.noiseLevels <= 255, "noise", o.noiseLevels, " levels",
+            "must be in [0, 255]");
 }
+
+enum class Purpose : std::uint32_t { taps, noise, dither };
+
+/// A generator for each purpose and image, so that one does not shift the numbers of another.
+std::mt19937_64 engineFor(const StimulusOptions& o, Edge edge, Purpose purpose) {
+    std::seed_seq seeds{static_cast<std::uint32_t>(o.seed),
+                        static_cast<std::uint32_t>(o.seed >> 32), static_cast<std::uint32_t>(edge),
+                        static_cast<std::uint32_t>(purpose)};
+    return std::mt19937_64(seeds);
+}
+
+double uniform(std::mt19937_64& rng) {
+    return static_cast<double>(rng() >> 11) * 0x1p-53;
+}
+
+/// Standard normal numbers, two at a time (G. Marsaglia, T. Bray, "A convenient method for
+/// generating normal variables", SIAM Review 1964); std::normal_distribution is not the same
+/// everywhere.
+class NormalNumbers {
+  public:
+    explicit NormalNumbers(const std::mt19937_64& rng) : rng_(rng) {}
+
+    double next() {
+        if (spare_) return *std::exchange(spare_, std::nullopt);
+        while (true) {
+            const double x = 2 * uniform(rng_) - 1, y = 2 * uniform(rng_) - 1;
+            const double square = x * x + y * y;
+            if (square >= 1 || square == 0) continue;
+            const double scale = std::sqrt(-2 * std::log(square) / square);
+            spare_ = y * scale;
+            return x * scale;
+        }
+    }
+
+  private:
+    std::mt19937_64 rng_;
+    std::optional<double> spare_;
+};
 
 /// Columns of pixels of one period, each a run of values from the lowest row that any copy needs.
 /// Pixel (column, row above the bottom) of the image is at
@@ -58,13 +104,18 @@ PeriodColumns<Value> emptyPeriod(const std::optional<Period>& period, int window
     return result;
 }
 
+/// The straight edge at the angle that the observer sees.
+Silhouette silhouetteOf(const StimulusOptions& o, Edge edge) {
+    const Silhouette silhouette(o.silhouette);
+    const bool tilted = edge == Edge::straight && o.roving.straightTiltDeg;
+    return tilted ? silhouette.withStraightEdgeAt(*o.roving.straightTiltDeg) : silhouette;
+}
+
 /// Fills the columns with toValue(V). Columns of pixels that are known to be equal are converted
 /// once.
 template <typename Value, typename ToValue>
 PeriodColumns<Value> evaluatePeriod(const StimulusOptions& o, Edge edge, ToValue toValue) {
-    Silhouette silhouette(o.silhouette);
-    if (edge == Edge::straight && o.roving.straightTiltDeg)
-        silhouette = silhouette.withStraightEdgeAt(*o.roving.straightTiltDeg);
+    const Silhouette silhouette = silhouetteOf(o, edge);
     auto result = emptyPeriod<Value>(
         edge == Edge::artifact ? silhouette.artifactPeriod() : silhouette.straightPeriod(),
         o.windowPx);
@@ -121,30 +172,57 @@ cv::Mat oriented(cv::Mat image, const Roving& roving) {
     return image;
 }
 
+/// Every pixel the mean of its taps.
+cv::Mat tapVisibilityImage(const StimulusOptions& o, Edge edge) {
+    const double radius = o.kernel.radiusPx;
+    const SharpEdges edges(silhouetteOf(o, edge), o.windowPx / 2.0 + 1 + radius);
+    const std::vector<Point> taps = poissonTaps(o.taps->taps);
+    std::mt19937_64 rng = engineFor(o, edge, Purpose::taps);
+    Point turn = randomDirection(rng);
+    const auto [left, bottom] = gridOf(o.windowPx);
+    cv::Mat image(o.windowPx, o.windowPx, CV_64FC1);
+    for (int row = 0; row < image.rows; ++row) {
+        const double y = bottom - o.roving.shiftPx + (o.windowPx - 1 - row);
+        for (int c = 0; c < image.cols; ++c) {
+            if (o.taps->turn == TapTurn::perPixel) turn = randomDirection(rng);
+            double lit = 0;
+            for (const Point& tap : taps) {
+                const double x = left + c + radius * (turn.x * tap.x - turn.y * tap.y);
+                const double tapY = y + radius * (turn.y * tap.x + turn.x * tap.y);
+                lit += edge == Edge::artifact ? edges.artifact(x, tapY) : edges.straight(x, tapY);
+            }
+            image.at<double>(row, c) = lit / o.taps->taps;
+        }
+    }
+    return image;
+}
+
 cv::Mat visibilityImage(const StimulusOptions& options, Edge edge) {
     validate(options);
+    if (options.taps) return tapVisibilityImage(options, edge);
     const auto same = [](double v) { return v; };
     return copied(evaluatePeriod<double>(options, edge, same), options.windowPx);
 }
 
-cv::Mat dithered(const cv::Mat& visibility, const StimulusOptions& o, std::uint64_t seed) {
+/// Codes with what is random about them.
+cv::Mat randomCodes(const StimulusOptions& o, Edge edge) {
+    const cv::Mat visibility = visibilityImage(o, edge);
     cv::Mat codes(visibility.size(), CV_8UC1);
-    std::mt19937_64 rng(seed);
+    std::mt19937_64 dither = engineFor(o, edge, Purpose::dither);
+    NormalNumbers noise(engineFor(o, edge, Purpose::noise));
     for (int row = 0; row < codes.rows; ++row)
         for (int c = 0; c < codes.cols; ++c) {
-            const double uniform = static_cast<double>(rng() >> 11) * 0x1p-53;
+            const double added = o.noiseLevels > 0 ? o.noiseLevels * noise.next() : 0;
             codes.at<std::uint8_t>(row, c) =
-                ditheredCode(visibility.at<double>(row, c), o.litLevel, o.encoding, uniform);
+                roundedCode(visibility.at<double>(row, c), o.litLevel, o.encoding, added,
+                            o.dither ? uniform(dither) : kHalfUp);
         }
     return codes;
 }
 
 cv::Mat codeImage(const StimulusOptions& options, Edge edge) {
-    if (options.ditherSeed) {
-        const std::uint64_t seed =
-            edge == Edge::artifact ? *options.ditherSeed : ~*options.ditherSeed;
-        return oriented(dithered(visibilityImage(options, edge), options, seed), options.roving);
-    }
+    if (options.taps || options.noiseLevels > 0 || options.dither)
+        return oriented(randomCodes(options, edge), options.roving);
     validate(options);
     const auto toCode = [&](double v) {
         return displayCode(v, options.litLevel, options.encoding);

@@ -46,7 +46,6 @@ struct CalibrationState {
 
 struct AppState {
     Flow flow;
-    Presentation presentation;
     SetupState setup;
     CalibrationState calibration;
     Instructions instructions;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <numbers>
 #include <string_view>
 
 #include "records/number_rule.h"
@@ -12,6 +12,7 @@
 #include "stimulus/kernel.h"
 #include "stimulus/silhouette.h"
 #include "stimulus/stimulus_image.h"
+#include "stimulus/tap_kernel.h"
 
 namespace study_app {
 namespace {
@@ -22,6 +23,9 @@ constexpr std::array<double, 3> kRadiusSteps{0.25, 0.5, 1};
 
 // Against slips of the keyboard: far beyond what a person can sit through.
 constexpr int kMostTrials = 100000;
+
+// A quarter of all codes: at more, most of the noise is cut off at black and white.
+constexpr double kMostNoiseLevels = 64;
 
 std::string problem(const std::string& field, const std::string& value, const std::string& rule) {
     return field + ": " + value + ": " + rule;
@@ -64,6 +68,11 @@ std::string duplicate(const std::string& field, const List& list) {
 template <typename List>
 std::string noConditions(const std::string& field, const List& list) {
     return list.empty() ? problem(field, "empty", "without an entry there are no conditions") : "";
+}
+
+double conditionCount(const Design& d) {
+    return static_cast<double>(d.artifactPx.size() * d.patterns.size() * d.litLevels.size() *
+                               d.kernels.size() * d.noiseLevels.size());
 }
 
 std::string checkWindow(const Design& d) {
@@ -110,10 +119,26 @@ std::string checkPattern(const std::string& field, const Silhouette& s) {
     return {};
 }
 
+/// A flatter line has no step in the window: its steps are a / tan(angle) apart, the first ones
+/// half of that from the middle. Nothing could be seen there at any radius.
+std::string checkSlant(const Design& d, const std::string& field, double angleDeg) {
+    const int most = *std::ranges::max_element(d.artifactPx);
+    const double least = std::atan2(most, d.windowPx) * 180 / std::numbers::pi;
+    if (angleDeg > least) return {};
+    return problem(field + ".angle_deg", angleDeg,
+                   "shows no step of " + std::to_string(most) + " px in a window of " +
+                       std::to_string(d.windowPx) + " px, must be greater than atan(a / window), " +
+                       exactText(std::ceil(least * 1000) / 1000) +
+                       " degrees (or take the pattern step)");
+}
+
 std::string checkPatterns(const Design& d) {
     if (auto found = noConditions("patterns", d.patterns); !found.empty()) return found;
     for (std::size_t i = 0; i < d.patterns.size(); ++i) {
-        if (auto found = checkPattern(indexed("patterns", i), d.patterns[i]); !found.empty()) {
+        const std::string field = indexed("patterns", i);
+        if (auto found = checkPattern(field, d.patterns[i]); !found.empty()) return found;
+        if (!d.patterns[i].angleDeg) continue;
+        if (auto found = checkSlant(d, field, *d.patterns[i].angleDeg); !found.empty()) {
             return found;
         }
     }
@@ -134,12 +159,38 @@ std::string checkLitLevels(const Design& d) {
 std::string checkKernels(const Design& d) {
     if (auto found = noConditions("kernels", d.kernels); !found.empty()) return found;
     for (std::size_t i = 0; i < d.kernels.size(); ++i) {
-        if (!stimulus::kernelShapeFromText(d.kernels[i])) {
+        if (!stimulus::kernelShapeFromText(d.kernels[i]) &&
+            !stimulus::tapKernelFromText(d.kernels[i])) {
             return problem(indexed("kernels", i), records::quotedText(d.kernels[i]),
-                           "must be one of disc, box, gaussian");
+                           "must be one of disc, box, gaussian, poisson1 to poisson" +
+                               std::to_string(stimulus::kMostTaps) + ", poisson1-still to poisson" +
+                               std::to_string(stimulus::kMostTaps) + "-still");
         }
     }
     return duplicate("kernels", d.kernels);
+}
+
+std::string checkNoise(const Design& d) {
+    if (auto found = noConditions("noise_levels", d.noiseLevels); !found.empty()) return found;
+    for (std::size_t i = 0; i < d.noiseLevels.size(); ++i) {
+        if (auto found = broken(indexed("noise_levels", i), d.noiseLevels[i],
+                                records::between(0, kMostNoiseLevels));
+            !found.empty()) {
+            return found;
+        }
+    }
+    return duplicate("noise_levels", d.noiseLevels);
+}
+
+std::string checkLocalise(const Design& d) {
+    if (!d.localise || d.task == records::Task::yesNo) return {};
+    return problem("localise", "true",
+                   "belongs to the task yes_no: in 2afc the side is the answer");
+}
+
+std::string checkPresentation(const Design& d) {
+    const std::string found = validate(d.presentation);
+    return found.empty() ? "" : "presentation." + found;
 }
 
 std::string checkTrials(const Design& d) {
@@ -152,9 +203,7 @@ std::string checkTrials(const Design& d) {
         !found.empty()) {
         return found;
     }
-    const double total = static_cast<double>(d.trialsPerCondition) *
-                         static_cast<double>(d.artifactPx.size() * d.patterns.size() *
-                                             d.litLevels.size() * d.kernels.size());
+    const double total = static_cast<double>(d.trialsPerCondition) * conditionCount(d);
     if (total <= kMostTrials) return {};
     return problem("trials_per_condition", d.trialsPerCondition,
                    "makes " + exactText(total) + " trials in all, must be at most " +
@@ -261,7 +310,9 @@ std::string conditionName(const Design& design, const Condition& c) {
     if (s.angleDeg) name += exactText(*s.angleDeg);
     name += orientationText(s.orientation);
     name += "-a" + std::to_string(c.artifactPx) + "-lit" + exactText(c.litLevel);
-    return design.kernels.size() > 1 ? name + "-" + c.kernel : name;
+    if (design.kernels.size() > 1) name += "-" + c.kernel;
+    if (design.noiseLevels.size() > 1) name += "-noise" + exactText(c.noiseLevels);
+    return name;
 }
 
 double trueAngleDeg(const Design& design, const Silhouette& s, int artifactPx) {
@@ -282,9 +333,11 @@ std::string validate(const Design& d) {
     }
     return firstOf([&] { return checkWindow(d); }, [&] { return checkSizes(d); },
                    [&] { return checkPatterns(d); }, [&] { return checkLitLevels(d); },
-                   [&] { return checkKernels(d); }, [&] { return checkTrials(d); },
+                   [&] { return checkKernels(d); }, [&] { return checkNoise(d); },
+                   [&] { return checkLocalise(d); }, [&] { return checkTrials(d); },
                    [&] { return checkRadius(d); }, [&] { return checkGuess(d); },
-                   [&] { return checkCurve(d); }, [&] { return checkRange(d); });
+                   [&] { return checkCurve(d); }, [&] { return checkRange(d); },
+                   [&] { return checkPresentation(d); });
 }
 
 quest::QuestParameters staircaseParameters(const Design& design) {
@@ -299,14 +352,17 @@ std::vector<Condition> conditions(const Design& design) {
         for (const int a : design.artifactPx) {
             for (const double litLevel : design.litLevels) {
                 for (const std::string& kernel : design.kernels) {
-                    Condition c{.name = {},
-                                .silhouette = silhouette,
-                                .angleDeg = trueAngleDeg(design, silhouette, a),
-                                .artifactPx = a,
-                                .litLevel = litLevel,
-                                .kernel = kernel};
-                    c.name = conditionName(design, c);
-                    result.push_back(std::move(c));
+                    for (const double noise : design.noiseLevels) {
+                        Condition c{.name = {},
+                                    .silhouette = silhouette,
+                                    .angleDeg = trueAngleDeg(design, silhouette, a),
+                                    .artifactPx = a,
+                                    .litLevel = litLevel,
+                                    .kernel = kernel,
+                                    .noiseLevels = noise};
+                        c.name = conditionName(design, c);
+                        result.push_back(std::move(c));
+                    }
                 }
             }
         }
@@ -315,14 +371,21 @@ std::vector<Condition> conditions(const Design& design) {
 }
 
 int catchTrials(const Design& d) {
-    const auto staircaseTrials = static_cast<double>(d.artifactPx.size() * d.patterns.size() *
-                                                     d.litLevels.size() * d.kernels.size()) *
-                                 d.trialsPerCondition;
+    const double staircaseTrials = conditionCount(d) * d.trialsPerCondition;
     return static_cast<int>(std::lround(staircaseTrials * d.catchShare / (1 - d.catchShare)));
 }
 
 int totalTrials(const Design& d) {
     return static_cast<int>(conditions(d).size()) * d.trialsPerCondition + catchTrials(d);
+}
+
+double expectedMinutes(const Design& design) {
+    const Presentation& p = design.presentation;
+    const double trials = totalTrials(design);
+    const double breaks =
+        p.breakEveryTrials > 0 ? std::floor((trials - 1) / p.breakEveryTrials) : 0;
+    const double trialS = p.blankS + p.fixationS + kTypicalAnswerS + (p.feedback ? p.feedbackS : 0);
+    return (trials * trialS + breaks * p.breakMinimumS) / 60;
 }
 
 }  // namespace study_app

@@ -5,10 +5,11 @@
 //   const study_app::Design design = study_app::readDesign("paper16.json");  // design_file.h
 //   for (const study_app::Condition& c : study_app::conditions(design)) ...
 //
-// Conditions are every combination of artifact size, pattern, lit level and kernel. Each has its
-// own staircase with the same parameters, since strength x = log10(a / r) is relative to the size.
-// The paper's designs and the readings behind them: Kreuzer, "Using Perception-Based Filtering to
-// Hide Shadow Artifacts", sections 4.2 and 4.3. docs/design-files.md describes the file.
+// Conditions are every combination of artifact size, pattern, lit level, kernel and noise. Each has
+// its own staircase with the same parameters, since strength x = log10(a / r) is relative to the
+// size. The paper's designs and the readings behind them: Kreuzer, "Using Perception-Based
+// Filtering to Hide Shadow Artifacts", sections 4.2 and 4.3. docs/design-files.md describes the
+// file.
 #pragma once
 
 #include <optional>
@@ -17,6 +18,7 @@
 
 #include "quest/quest.h"
 #include "records/trial_table.h"
+#include "study_app/presentation.h"
 
 namespace study_app {
 
@@ -64,14 +66,19 @@ struct Design {
     int windowPx = 600;           ///< edge of the square stimulus, screen px
     std::vector<int> artifactPx;  ///< a, whole screen px (risers lie on pixel edges), < window / 2
     std::vector<Silhouette> patterns;
-    std::vector<double> litLevels{1.0};        ///< share of full white, (0, 1]
-    std::vector<std::string> kernels{"disc"};  ///< disc, box, gaussian
-    int trialsPerCondition = 40;               ///< catch trials not counted
+    std::vector<double> litLevels{1.0};  ///< share of full white, (0, 1]
+    /// disc, box, gaussian, or turned taps: poisson16, poisson16-still (stimulus/tap_kernel.h)
+    std::vector<std::string> kernels{"disc"};
+    std::vector<double> noiseLevels{0};  ///< sd of image noise, 8-bit codes, [0, 64]
+    bool dither = false;                 ///< codes rounded at random
+    bool localise = false;               ///< yes/no: after "seen" a click on the artifact
+    int trialsPerCondition = 40;         ///< catch trials not counted
     double catchShare = 0.1;  ///< of all trials, [0, .5]; what a catch trial is: session.h
     double guessRatio = 3;    ///< first guess of the threshold radius, as a multiple of a
     quest::QuestParameters staircase = quest::kDefaultParameters;  ///< priorMean: see guessRatio
     RadiusLimits radius;
     Roving roving;
+    Presentation presentation;
 
     bool operator==(const Design&) const = default;
 };
@@ -90,14 +97,18 @@ struct Condition {
     int artifactPx = 0;
     double litLevel = 1;
     std::string kernel;
+    double noiseLevels = 0;
 };
 
-/// Patterns outermost, then sizes, lit levels, kernels. The kernel is part of the name where the
-/// design has several.
+/// Patterns outermost, then sizes, lit levels, kernels, noise. Kernel and noise are part of the
+/// name where the design has several.
 std::vector<Condition> conditions(const Design& design);
 
 int catchTrials(
     const Design& design);  ///< so that their share of all trials is catchShare, rounded
 int totalTrials(const Design& design);  ///< with catch trials
+
+/// Minutes that a session takes: trials with an answer after kTypicalAnswerS, and the least breaks.
+double expectedMinutes(const Design& design);
 
 }  // namespace study_app

@@ -189,11 +189,17 @@ Design designFromJson(const json& value, const std::string& where) {
     d.patterns = readPatterns(fields, where);
     if (fields.has("lit_levels")) d.litLevels = fields.numbers("lit_levels");
     if (fields.has("kernels")) d.kernels = fields.texts("kernels");
+    if (fields.has("noise_levels")) d.noiseLevels = fields.numbers("noise_levels");
+    d.dither = fields.optionalBoolean("dither").value_or(d.dither);
+    d.localise = fields.optionalBoolean("localise").value_or(d.localise);
     d.trialsPerCondition = fields.integer("trials_per_condition");
     d.catchShare = fields.optionalNumber("catch_share").value_or(d.catchShare);
     readStaircase(fields, d);
     d.radius = readRadius(fields, d.windowPx);
     d.roving = readRoving(fields);
+    if (fields.has("presentation")) {
+        d.presentation = presentationFromJson(fields.any("presentation"), where, "presentation");
+    }
     fields.noOtherFields();
     if (const std::string found = validate(d); !found.empty()) {
         throw std::runtime_error(where + ": field " + found);
@@ -219,6 +225,9 @@ ordered_json normalisedJson(const Design& d) {
         {"patterns", patterns},
         {"lit_levels", d.litLevels},
         {"kernels", d.kernels},
+        {"noise_levels", d.noiseLevels},
+        {"dither", d.dither},
+        {"localise", d.localise},
         {"trials_per_condition", d.trialsPerCondition},
         {"catch_share", d.catchShare},
         {"quest", staircaseJson(d)},
@@ -227,7 +236,8 @@ ordered_json normalisedJson(const Design& d) {
          {{"shift", d.roving.shift},
           {"quarter_turn", d.roving.quarterTurn},
           {"mirror", d.roving.mirror},
-          {"tilt", d.roving.tilt}}}});
+          {"tilt", d.roving.tilt}}},
+        {"presentation", presentationJson(d.presentation)}});
     return text;
 }
 

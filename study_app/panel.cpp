@@ -112,7 +112,9 @@ void drawTrials(const SessionRunner& runner) {
             cell(std::to_string(row.number));
             cell(row.condition + (row.staircase ? "" : " (check)"));
             cell(formatted("%.2f", row.filterRadiusPx));
-            cell(std::string(records::toText(row.response)) + (row.correct ? " +" : " –"));
+            cell(row.response
+                     ? std::string(records::toText(*row.response)) + (row.correct ? " +" : " –")
+                     : "–");
             cell(row.responseTimeS ? formatted("%.2f s", *row.responseTimeS) : "–");
             cell(std::string(records::toText(row.status)));
         }

@@ -69,8 +69,9 @@ std::string validate(const Presentation& p) {
     return {};
 }
 
-Presentation presentationFromJson(const nlohmann::json& json, const std::string& where) {
-    const JsonFields fields(json, where);
+Presentation presentationFromJson(const nlohmann::json& json, const std::string& file,
+                                  const std::string& path) {
+    const JsonFields fields(json, file, path);
     Presentation p;
     set(p.blankS, fields.optionalNumber("blank_s", kSeconds));
     set(p.fixationS, fields.optionalNumber("fixation_s", kSeconds));
@@ -86,9 +87,29 @@ Presentation presentationFromJson(const nlohmann::json& json, const std::string&
     readRule(fields, "resumed_practice", p.resumedPractice);
     fields.noOtherFields();
     if (const std::string problem = validate(p); !problem.empty()) {
-        throw std::runtime_error(where + ": field " + problem);
+        throw std::runtime_error(file + ": field " + (path.empty() ? "" : path + ".") + problem);
     }
     return p;
+}
+
+nlohmann::ordered_json presentationJson(const Presentation& p) {
+    const auto rule = [](const PracticeRule& r) {
+        return nlohmann::ordered_json{
+            {"correct", r.correct}, {"of_last", r.ofLast}, {"at_most", r.atMost}};
+    };
+    nlohmann::ordered_json json{{"blank_s", p.blankS},
+                                {"fixation_s", p.fixationS},
+                                {"between", p.between == Between::mask ? "mask" : "blank"},
+                                {"too_fast_s", p.tooFastS},
+                                {"feedback", p.feedback},
+                                {"feedback_s", p.feedbackS},
+                                {"background_code", p.backgroundCode},
+                                {"break_every_trials", p.breakEveryTrials},
+                                {"break_minimum_s", p.breakMinimumS},
+                                {"practice", rule(p.practice)},
+                                {"resumed_practice", rule(p.resumedPractice)}};
+    if (p.timeLimitS) json["time_limit_s"] = *p.timeLimitS;
+    return json;
 }
 
 Presentation readPresentation(const std::filesystem::path& file) {

@@ -2,8 +2,9 @@
 // How a session is shown to a person: the pace of a trial, breaks, practice. Nothing here changes a
 // proposal: the same answers lead to the same staircases at any pace.
 //
-// As a JSON file for `study_app --presentation FILE`: the fields below in snake_case, all of them
-// optional; docs/study-window.md lists them.
+// Part of a design, in JSON its field `presentation`: the members below in snake_case, all of them
+// optional; docs/design-files.md lists them. `study_app --presentation FILE` puts a file of the
+// same fields in its place.
 #pragma once
 
 #include <filesystem>
@@ -41,8 +42,17 @@ struct Presentation {
 /// Empty when usable; else "<field>: <value>: <rule>".
 std::string validate(const Presentation& presentation);
 
+/// What a person takes to answer, s, before anything is known of the pace. Chosen by eye from the
+/// human tables: a median answer takes about a second.
+inline constexpr double kTypicalAnswerS = 1.2;
+
 /// Throws std::runtime_error "<file>: field <field>: <value>: <rule>".
 Presentation readPresentation(const std::filesystem::path& file);
-Presentation presentationFromJson(const nlohmann::json& json, const std::string& where);
+/// The same from JSON that is already there; `path` is its place in the file, "" for the file's
+/// own.
+Presentation presentationFromJson(const nlohmann::json& json, const std::string& file,
+                                  const std::string& path = "");
+/// Every field, defaults filled in; without a time limit none. Reads back the same.
+nlohmann::ordered_json presentationJson(const Presentation& presentation);
 
 }  // namespace study_app

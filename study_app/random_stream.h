@@ -20,6 +20,7 @@ enum class Purpose : std::uint64_t {
     observer = 3,     ///< a simulated observer's own thresholds
     answer = 4,       ///< a simulated observer's answers
     participant = 5,  ///< seeds of the sessions of a simulated study
+    image = 6,        ///< seeds of turned taps, noise and dither
 };
 
 /// The generator at `index` of a purpose.

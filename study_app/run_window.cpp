@@ -130,7 +130,6 @@ class StudyWindow {
 };
 
 StudyWindow::StudyWindow(const WindowRun& run) : run_(run), window_(run.window) {
-    state_.presentation = run.presentation;
     state_.setup.form = run.form;
     state_.setup.designs = shippedDesigns();
     run_.context.glRenderer = window_.glRenderer();
@@ -305,7 +304,7 @@ void StudyWindow::draw(bool returnPressed) {
     if (stimuli && !newStimulus && framesWanted_ == 0 && !state_.panelShown) return;
     framesWanted_ = std::max(0, framesWanted_ - 1);
     window_.showCursor(!stimuli || state_.panelShown);
-    window_.beginFrame(stimuli ? state_.presentation.backgroundCode : kPageGrey);
+    window_.beginFrame(stimuli ? state_.runner->presentation().backgroundCode : kPageGrey);
     std::vector<PlacedImage> images;
     const Page page{window_, now, returnPressed, images};
     const std::optional<Request> request = drawScreen(page);
@@ -373,7 +372,7 @@ void StudyWindow::showFrame(const std::vector<PlacedImage>& images, bool newStim
     if (robotLooks) {
         const Side side = robotAnswer(frame, robotCoin_);
         robotPress_ = {.key = side == Side::left ? GLFW_KEY_LEFT : GLFW_KEY_RIGHT,
-                       .due = shown + state_.presentation.tooFastS};
+                       .due = shown + state_.runner->presentation().tooFastS};
     }
     if (!eventLog_.is_open()) return;
     const records::Trial trial = state_.runner->trial();
@@ -454,7 +453,7 @@ void StudyWindow::actOnEvent(RunnerEvent event, double now) {
             state_.practiceStuck = true;
             return;
         case RunnerEvent::breakDue:
-            state_.restOver = now + state_.presentation.breakMinimumS;
+            state_.restOver = now + state_.runner->presentation().breakMinimumS;
             return go(FlowEvent::breakDue, now);
         case RunnerEvent::finished:
             return go(FlowEvent::sessionFinished, now);
@@ -535,7 +534,7 @@ void StudyWindow::refreshSetup() {
             }
         }
         setup.design = setup.existing.design ? *setup.existing.design : designOf(setup.form);
-        setup.summary = describeDesign(*setup.design, state_.presentation);
+        setup.summary = describeDesign(*setup.design);
     } catch (const std::exception& error) {
         setup.problem = error.what();
     }
@@ -598,7 +597,7 @@ void StudyWindow::startSession(const SetupForm& form) {
     const SessionRequest request =
         requestFrom(form, existing, state_.calibration.profile, freshSeed(), run_.context);
     const records::ParticipantDetails details = detailsFrom(form);
-    state_.runner = std::make_unique<SessionRunner>(request, state_.presentation);
+    state_.runner = std::make_unique<SessionRunner>(request);
     if (details != records::ParticipantDetails{}) {
         records::writeParticipant(form.dataFolder, form.participant, details);
     }
@@ -617,7 +616,7 @@ void StudyWindow::rerun(double now) {
         if (!std::filesystem::exists(table)) break;
     }
     try {
-        state_.runner = std::make_unique<SessionRunner>(request, state_.presentation);
+        state_.runner = std::make_unique<SessionRunner>(request);
     } catch (const std::runtime_error& error) {
         state_.message = error.what();
         state_.resultsShown = false;

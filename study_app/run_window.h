@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "records/run_context.h"
-#include "study_app/presentation.h"
 #include "study_app/setup_form.h"
 #include "study_app/window.h"
 
@@ -16,7 +15,6 @@ namespace study_app {
 
 struct WindowRun {
     SetupForm form{};  ///< what the set-up screen begins with
-    Presentation presentation{};
     WindowOptions window{};
     records::RunContext context{};
     std::filesystem::path instructions{};  ///< empty: the shipped text for the task

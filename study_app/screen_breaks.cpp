@@ -40,7 +40,7 @@ std::optional<Request> drawPracticeOver(AppState& state, const Page& page) {
         paragraph(
             "You have got the idea. From now on the steps become harder to see. That is as it "
             "should be: the computer keeps looking for the point at which you are just unsure.");
-        if (!state.presentation.feedback) {
+        if (!state.runner->presentation().feedback) {
             paragraph("You will not be told any more whether you were right.");
         }
         paragraph("The session takes " + minutesText(state.runner->secondsLeft()) + ".");

@@ -8,7 +8,11 @@
 #include <string_view>
 
 #include "quest/random.h"
+#include "records/number_rule.h"
+#include "records/quoted_text.h"
+#include "stimulus/tap_kernel.h"
 #include "study_app/random_stream.h"
+#include "study_app/trial_stimulus.h"
 
 namespace study_app {
 namespace {
@@ -20,16 +24,45 @@ using records::TrialStatus;
 using records::TrialType;
 
 bool isCorrect(const Trial& trial) {
-    if (trial.task == Task::twoAfc) return records::toText(trial.response) == *trial.side;
+    if (!trial.response) return false;
+    if (trial.task == Task::twoAfc) return records::toText(*trial.response) == *trial.side;
     return (trial.response == Response::seen) == (trial.type == TrialType::artifact);
 }
 
-void requireResponse(Task task, Response response) {
-    const bool isSide = response == Response::left || response == Response::right;
+void requireResponse(Task task, const Answer& answer) {
+    if (!answer.response) {
+        if (answer.status != TrialStatus::ok) return;
+        throw std::invalid_argument("response: missing: a trial with status ok needs one");
+    }
+    const bool isSide = answer.response == Response::left || answer.response == Response::right;
     if (isSide == (task == Task::twoAfc)) return;
-    throw std::invalid_argument("response: " + std::string(records::toText(response)) +
+    throw std::invalid_argument("response: " + std::string(records::toText(*answer.response)) +
                                 ": does not belong to the task " +
                                 std::string(records::toText(task)));
+}
+
+/// Empty where the click is as the design asks for it, or there is none.
+std::string clickProblem(const Design& design, const Answer& answer) {
+    if (!answer.clickXPx && !answer.clickYPx) return {};
+    if (!design.localise || answer.response != Response::seen) {
+        return "click: belongs to the answer seen in a design with \"localise\": true";
+    }
+    for (const std::optional<double>& place : {answer.clickXPx, answer.clickYPx}) {
+        if (place && *place >= 0 && *place <= design.windowPx) continue;
+        return "click: " + (place ? records::exactText(*place) : "missing") +
+               " px: must lie on the image, from 0 to " + std::to_string(design.windowPx);
+    }
+    return {};
+}
+
+bool hasRandomPixels(const Condition& condition, const Design& design) {
+    return design.dither || condition.noiseLevels > 0 ||
+           stimulus::tapKernelFromText(condition.kernel).has_value();
+}
+
+/// 31 bits, which every reader of tables takes for a whole number.
+int imageSeed(std::uint64_t seed, std::size_t row) {
+    return static_cast<int>(engineAt(seed, Purpose::image, row)() >> 33);
 }
 
 std::vector<std::string_view> cells(std::string_view line) {
@@ -103,6 +136,9 @@ void Session::prepareNext() {
     next_.kernel = condition.kernel;
     next_.task = design_.task;
     next_.encoding = design_.encoding;
+    if (design_.noiseLevels != std::vector<double>{0}) next_.noiseLevels = condition.noiseLevels;
+    if (design_.dither) next_.dither = true;
+    if (hasRandomPixels(condition, design_)) next_.imageSeed = imageSeed(seed_, rows_);
     place(next_, index, isCatch);
     rove(next_, condition);
 }
@@ -148,12 +184,21 @@ void Session::rove(Trial& trial, const Condition& condition) const {
 
 Trial Session::answer(const Answer& answer) {
     Trial row = next();
-    requireResponse(row.task, answer.response);
+    requireResponse(row.task, answer);
+    if (const std::string problem = clickProblem(design_, answer); !problem.empty()) {
+        throw std::invalid_argument(problem);
+    }
     row.response = answer.response;
     row.correct = isCorrect(row);
     row.responseTimeS = answer.responseTimeS;
     row.onsetS = answer.onsetS;
     row.status = answer.status;
+    if (answer.clickXPx) {
+        row.clickXPx = answer.clickXPx;
+        row.clickYPx = answer.clickYPx;
+        row.clickDistancePx =
+            clickDistancePx(row, design_.windowPx, *answer.clickXPx, *answer.clickYPx);
+    }
     if (row.status == TrialStatus::ok) take(row);
     ++rows_;
     prepareNext();
@@ -188,10 +233,17 @@ std::optional<Difference> Session::replay(const Trial& row) {
         return Difference{row.number, "task", std::string(records::toText(row.task)),
                           std::string(records::toText(design_.task))};
     }
-    Trial derived = answer({.response = row.response,
-                            .responseTimeS = row.responseTimeS,
-                            .onsetS = row.onsetS,
-                            .status = row.status});
+    const Answer recorded{.response = row.response,
+                          .responseTimeS = row.responseTimeS,
+                          .onsetS = row.onsetS,
+                          .status = row.status,
+                          .clickXPx = row.clickXPx,
+                          .clickYPx = row.clickYPx};
+    if (!clickProblem(design_, recorded).empty()) {
+        return Difference{row.number, "click_x_px", records::exactText(row.clickXPx.value_or(0)),
+                          "n/a"};
+    }
+    Trial derived = answer(recorded);
     derived.extra = row.extra;
     return firstDifference(row, derived);
 }

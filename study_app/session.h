@@ -42,10 +42,13 @@
 namespace study_app {
 
 struct Answer {
-    records::Response response = records::Response::left;
-    std::optional<double> responseTimeS = {};  ///< seconds from onset
-    std::optional<double> onsetS = {};         ///< seconds since the session's start
+    std::optional<records::Response> response = {};  ///< none: disturbed before there was one
+    std::optional<double> responseTimeS = {};        ///< seconds from onset
+    std::optional<double> onsetS = {};               ///< seconds since the session's start
     records::TrialStatus status = records::TrialStatus::ok;
+    /// Where the artifact was seen, px from the left and the upper edge of the image as shown, in
+    /// [0, window]. Only with `seen` in a design that localises.
+    std::optional<double> clickXPx = {}, clickYPx = {};
 };
 
 /// The first cell in which a recorded row is not what the session derives.
@@ -68,7 +71,8 @@ class Session {
     std::size_t nextCondition() const;  ///< index into conditions()
 
     /// Takes the answer to next() and returns the row to record. Throws std::logic_error when
-    /// finished, std::invalid_argument where the response does not belong to the task.
+    /// finished, std::invalid_argument where the response does not belong to the task, is missing
+    /// although the status is ok, or comes with a click that nobody asked for.
     records::Trial answer(const Answer& answer);
 
     /// Takes a recorded row, holding it against what the session would have shown and derived.

@@ -83,6 +83,7 @@ Design rerunDesign(const Design& design, std::size_t condition) {
     rerun.patterns = {c.silhouette};
     rerun.litLevels = {c.litLevel};
     rerun.kernels = {c.kernel};
+    rerun.noiseLevels = {c.noiseLevels};
     return rerun;
 }
 

@@ -14,7 +14,6 @@ using records::Response;
 using records::Task;
 
 constexpr std::size_t kPaceTrials = 30;
-constexpr double kTypicalAnswerS = 1.2;  // before anything is known; as in expectedMinutes()
 
 /// Microseconds are far below what a keyboard resolves, and keep the table readable.
 double toMicroseconds(double seconds) {
@@ -34,15 +33,14 @@ Response responseFor(Side side, Task task) {
     return side == Side::left ? Response::notSeen : Response::seen;
 }
 
-SessionRunner::SessionRunner(const SessionRequest& request, const Presentation& presentation)
+SessionRunner::SessionRunner(const SessionRequest& request)
     : request_(request),
-      presentation_(presentation),
       recorded_(std::make_unique<RecordedSession>(request)),
       practice_(
           request.design, request.seed,
-          recorded_->resumedRows() > 0 ? presentation.resumedPractice : presentation.practice),
-      clock_(presentation),
-      prefetcher_(request.design.windowPx),
+          recorded_->resumedRows() > 0 ? presentation().resumedPractice : presentation().practice),
+      clock_(presentation()),
+      prefetcher_(request.design),
       sessionStart_(0),
       rows_(records::readTrialTable(recorded_->table()).trials) {}
 
@@ -111,7 +109,7 @@ std::optional<RunnerEvent> SessionRunner::take(const Outcome& outcome, double no
     }
     const bool answered = outcome.status == records::TrialStatus::ok;
     if (answered) notePace(now);
-    if (answered && (stage_ == Stage::practice || presentation_.feedback)) {
+    if (answered && (stage_ == Stage::practice || presentation().feedback)) {
         clock_.giveFeedback(now);
         return RunnerEvent::feedback;
     }
@@ -127,10 +125,7 @@ void SessionRunner::takeInPractice(const Outcome& outcome) {
 }
 
 std::optional<RunnerEvent> SessionRunner::record(const Outcome& outcome) {
-    // A trial without an answer has no response; the table needs a word, and a response time of n/a
-    // says that it is none.
-    const Response none = responseFor(Side::left, session().design().task);
-    Answer answer{.response = outcome.response.value_or(none),
+    Answer answer{.response = outcome.response,
                   .onsetS = toMicroseconds(outcome.onset - sessionStart_),
                   .status = outcome.status};
     if (outcome.responseTimeS) answer.responseTimeS = toMicroseconds(*outcome.responseTimeS);
@@ -164,7 +159,7 @@ std::optional<RunnerEvent> SessionRunner::proceed(double now) {
         if (practice_.exhausted()) return stop(RunnerEvent::practiceStuck);
     } else {
         if (session().finished()) return stop(RunnerEvent::finished);
-        if (presentation_.breakEveryTrials > 0 && sinceBreak_ >= presentation_.breakEveryTrials) {
+        if (presentation().breakEveryTrials > 0 && sinceBreak_ >= presentation().breakEveryTrials) {
             sinceBreak_ = 0;
             return stop(RunnerEvent::breakDue);
         }
@@ -214,16 +209,16 @@ bool SessionRunner::undo() {
 
 double SessionRunner::secondsLeft() const {
     std::vector<double> pace(paceS_.begin(), paceS_.end());
-    double trialS = presentation_.blankS + presentation_.fixationS + kTypicalAnswerS;
+    double trialS = presentation().blankS + presentation().fixationS + kTypicalAnswerS;
     if (pace.size() >= 5) {
         const auto middle = pace.begin() + static_cast<std::ptrdiff_t>(pace.size() / 2);
         std::nth_element(pace.begin(), middle, pace.end());
         trialS = *middle;
     }
     const auto left = static_cast<double>(session().total() - session().answered());
-    const int every = presentation_.breakEveryTrials;
+    const int every = presentation().breakEveryTrials;
     const double breaks = every > 0 ? std::floor((left + sinceBreak_) / every) : 0;
-    return left * trialS + breaks * presentation_.breakMinimumS;
+    return left * trialS + breaks * presentation().breakMinimumS;
 }
 
 }  // namespace study_app

@@ -3,7 +3,7 @@
 // undo, the stimuli that come next computed ahead. The window asks what to draw and passes on what
 // was pressed and when.
 //
-//   SessionRunner runner(request, presentation);
+//   SessionRunner runner(request);
 //   runner.begin(SessionRunner::Stage::practice, now);
 //   if (auto event = runner.tick(now)) ...                   // finished, break due, ...
 //   if (runner.stimulusDue(now)) { draw(runner.images()); runner.shown(timeOfSwap); }
@@ -21,8 +21,8 @@
 #include "study_app/practice.h"
 #include "study_app/presentation.h"
 #include "study_app/recorded_session.h"
+#include "study_app/stimulus_prefetcher.h"
 #include "study_app/trial_clock.h"
-#include "study_app/trial_stimulus.h"
 
 namespace study_app {
 
@@ -45,12 +45,12 @@ class SessionRunner {
     enum class Stage { practice, session };
 
     /// Starts or resumes the session. Throws what RecordedSession throws.
-    SessionRunner(const SessionRequest& request, const Presentation& presentation);
+    explicit SessionRunner(const SessionRequest& request);
 
     const Session& session() const { return recorded_->session(); }
     const RecordedSession& recorded() const { return *recorded_; }
     const SessionRequest& request() const { return request_; }
-    const Presentation& presentation() const { return presentation_; }
+    const Presentation& presentation() const { return request_.design.presentation; }
     const Practice& practice() const { return practice_; }
     bool practiceNeeded() const;
     void startPracticeAgain() { practice_.startAgain(); }
@@ -99,7 +99,6 @@ class SessionRunner {
     void reopen();
 
     SessionRequest request_;
-    Presentation presentation_;
     std::unique_ptr<RecordedSession> recorded_;
     Practice practice_;
     TrialClock clock_;

@@ -18,9 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Chosen by eye from the human tables: a median answer takes about a second.
-constexpr double kTypicalAnswerS = 1.2;
-
 std::optional<std::string> sessionOf(const SetupForm& form) {
     return form.session.empty() ? std::nullopt : std::optional(form.session);
 }
@@ -130,25 +127,19 @@ Design withTask(Design design, records::Task task) {
     } else {
         q.gamma = 0.5;
         q.pThreshold = quest::thresholdProbability(criterion, q.gamma, q.delta);
+        design.localise = false;
     }
     design.task = task;
     return design;
 }
 
 Design designOf(const SetupForm& form) {
-    const Design design = readDesign(findDesign(form.design));
+    Design design = readDesign(findDesign(form.design));
+    if (form.presentation) design.presentation = *form.presentation;
     return form.task ? withTask(design, *form.task) : design;
 }
 
-double expectedMinutes(const Design& design, const Presentation& p) {
-    const double trials = totalTrials(design);
-    const double breaks =
-        p.breakEveryTrials > 0 ? std::floor((trials - 1) / p.breakEveryTrials) : 0;
-    const double trialS = p.blankS + p.fixationS + kTypicalAnswerS + (p.feedback ? p.feedbackS : 0);
-    return (trials * trialS + breaks * p.breakMinimumS) / 60;
-}
-
-std::vector<std::string> describeDesign(const Design& d, const Presentation& presentation) {
+std::vector<std::string> describeDesign(const Design& d) {
     const auto number = [](auto value) { return records::exactText(static_cast<double>(value)); };
     const auto itself = [](const std::string& text) { return text; };
     std::vector<std::string> lines;
@@ -164,7 +155,7 @@ std::vector<std::string> describeDesign(const Design& d, const Presentation& pre
     std::snprintf(text, sizeof text,
                   "%d trials (%d per condition, %d to check attention), about %.0f minutes",
                   totalTrials(d), d.trialsPerCondition, catchTrials(d),
-                  std::max(1.0, expectedMinutes(d, presentation)));
+                  std::max(1.0, expectedMinutes(d)));
     lines.emplace_back(text);
     return lines;
 }

@@ -21,11 +21,12 @@ namespace study_app {
 /// As typed.
 struct SetupForm {
     std::string dataFolder = "study";
-    std::string participant, session;    ///< session may be empty
-    std::string age, gender, expertise;  ///< may be empty
-    std::string design = "paper16";      ///< a shipped design or a file
-    std::string seed;                    ///< empty: drawn when the session starts
-    std::optional<records::Task> task;   ///< absent: the design's own
+    std::string participant, session;               ///< session may be empty
+    std::string age, gender, expertise;             ///< may be empty
+    std::string design = "paper16";                 ///< a shipped design or a file
+    std::string seed;                               ///< empty: drawn when the session starts
+    std::optional<records::Task> task;              ///< absent: the design's own
+    std::optional<Presentation> presentation = {};  ///< absent: the design's own
     bool operator==(const SetupForm&) const = default;
 };
 
@@ -45,17 +46,14 @@ ExistingSession findExisting(const SetupForm& form);
 std::vector<std::string> describeParticipants(const std::filesystem::path& dataFolder,
                                               std::size_t most = 200);
 
-/// The form's design with the form's task. Throws like readDesign and findDesign.
+/// The form's design with the form's task and presentation. Throws like readDesign and findDesign.
 Design designOf(const SetupForm& form);
 
 /// A design for the other task at the same criterion.
 Design withTask(Design design, records::Task task);
 
-/// Minutes that a session takes: trials with an answer after 1.2 s, and the least breaks.
-double expectedMinutes(const Design& design, const Presentation& presentation);
-
 /// In plain words, a line each: what is shown, how many trials, how long.
-std::vector<std::string> describeDesign(const Design& design, const Presentation& presentation);
+std::vector<std::string> describeDesign(const Design& design);
 
 /// Empty when a session can start; else what is missing, as a sentence.
 std::string missing(const SetupForm& form);

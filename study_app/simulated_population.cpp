@@ -24,6 +24,14 @@ constexpr double kLeastContrast = 0.02;  // as in the law that the slope file st
 constexpr double kPauseS = 0.7, kFastestS = 0.3, kMedianS = 0.6, kSpread = 0.4;
 
 constexpr records::NumberRule kBelowOne{.low = 0, .high = 1, .highIncluded = false};
+// Far beyond any observer; more is a slip of the keyboard, and numbers stay readable.
+constexpr records::NumberRule kFactor = records::between(0.001, 1000);
+constexpr records::NumberRule kExponent = records::between(-10, 10);
+constexpr records::NumberRule kSd = records::between(0, 10);
+constexpr records::NumberRule kSlope = records::between(0.1, 100);
+
+// Of a simulated click around the place where the artifact is seen, px. Chosen by eye.
+constexpr double kClickSdPx = 8;
 
 struct Key {
     std::string_view name;
@@ -33,23 +41,23 @@ struct Key {
 };
 
 constexpr Key kKeys[] = {
-    {"c", &SimulatedPopulation::c, records::kPositive,
+    {"c", &SimulatedPopulation::c, kFactor,
      "slope of r = c a of the mean observer at the criterion"},
-    {"kappa", &SimulatedPopulation::kappa, records::kFinite, "exponent of the artifact size"},
+    {"kappa", &SimulatedPopulation::kappa, kExponent, "exponent of the artifact size"},
     {"criterion", &SimulatedPopulation::criterion, records::kInsideShare,
      "detection probability F* that c stands for"},
-    {"beta", &SimulatedPopulation::beta, records::kPositive, "psychometric slope"},
+    {"beta", &SimulatedPopulation::beta, kSlope, "psychometric slope"},
     {"lapse", &SimulatedPopulation::lapse, kBelowOne, "share of blind answers"},
     {"false_alarms", &SimulatedPopulation::falseAlarms, kBelowOne,
      "share of \"seen\" without an artifact (yes_no)"},
-    {"observer_sd", &SimulatedPopulation::observerSd, records::kNotNegative,
-     "sd between observers, log10 units"},
-    {"condition_sd", &SimulatedPopulation::conditionSd, records::kNotNegative,
+    {"observer_sd", &SimulatedPopulation::observerSd, kSd, "sd between observers, log10 units"},
+    {"condition_sd", &SimulatedPopulation::conditionSd, kSd,
      "sd of observer x condition, log10 units"},
-    {"stair", &SimulatedPopulation::stair, records::kPositive, "factor on c for stairs"},
-    {"step", &SimulatedPopulation::step, records::kPositive, "factor on c for steps"},
-    {"line", &SimulatedPopulation::line, records::kPositive, "factor on c for lines"},
-    {"contrast_exponent", &SimulatedPopulation::contrastExponent, records::kFinite,
+    {"stair", &SimulatedPopulation::stair, kFactor, "factor on c for stairs"},
+    {"step", &SimulatedPopulation::step, kFactor, "factor on c for steps"},
+    {"line", &SimulatedPopulation::line, kFactor, "factor on c for lines"},
+    {"frame", &SimulatedPopulation::frame, kFactor, "factor on c for rendered frames"},
+    {"contrast_exponent", &SimulatedPopulation::contrastExponent, kExponent,
      "e of the factor (lit level)^e on c"},
 };
 
@@ -92,7 +100,7 @@ double patternFactor(const SimulatedPopulation& population, records::Pattern pat
         case records::Pattern::line:
             return population.line;
         case records::Pattern::frame:
-            break;
+            return population.frame;
     }
     throw std::logic_error("study_app: no simulated observer for this pattern");
 }
@@ -101,6 +109,17 @@ double log10GeometricMean(std::span<const int> sizes) {
     double sum = 0;
     for (const int a : sizes) sum += std::log10(a);
     return sum / static_cast<double>(sizes.size());
+}
+
+/// The silhouette passes through the middle of the image, and with it the artifact.
+void click(Answer& answer, int windowPx, bool artifact, std::mt19937_64& rng) {
+    const auto place = [&] {
+        const double px = artifact ? windowPx / 2.0 + kClickSdPx * quest::standardNormal(rng)
+                                   : windowPx * quest::uniform01(rng);
+        return std::round(std::clamp(px, 0.0, static_cast<double>(windowPx)));
+    };
+    answer.clickXPx = place();
+    answer.clickYPx = place();
 }
 
 double wholeMilliseconds(double seconds) {
@@ -199,6 +218,9 @@ Answer simulatedAnswer(const SimulatedParticipant& participant, const Session& s
     answer.onsetS = wholeMilliseconds(lastAnswerS + kPauseS);
     answer.responseTimeS =
         wholeMilliseconds(kFastestS + kMedianS * std::exp(kSpread * quest::standardNormal(rng)));
+    if (session.design().localise && answer.response == records::Response::seen) {
+        click(answer, session.design().windowPx, hasArtifact, rng);
+    }
     return answer;
 }
 

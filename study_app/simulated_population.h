@@ -27,7 +27,7 @@
 namespace study_app {
 
 struct SimulatedPopulation {
-    /// Slope of r = c a for the mean observer at the criterion, factor 1; > 0. [K] eq. 1.
+    /// Slope of r = c a for the mean observer at the criterion, factor 1. [K] eq. 1.
     double c = 3.47;
     double kappa = 1;                           ///< exponent of the size
     double criterion = quest::kPaperCriterion;  ///< F* that c stands for, (0, 1)
@@ -36,8 +36,8 @@ struct SimulatedPopulation {
     double falseAlarms = 0.03;                  ///< P(seen) without artifact in yes/no, [0, 1)
     double observerSd = 0.10;                   ///< of u, log10 units, >= 0
     double conditionSd = 0.05;                  ///< of v, log10 units, >= 0
-    /// Factors on c, > 0. [K] hides a stair of a = 10 px at about 25 px: 2.5 / 3.47.
-    double stair = 0.72, step = 1, line = 1;
+    /// Factors on c. [K] hides a stair of a = 10 px at about 25 px: 2.5 / 3.47.
+    double stair = 0.72, step = 1, line = 1, frame = 1;
     /// e. "Slightly harder to spot" at half the contrast [K]: 5 %, chosen by eye.
     double contrastExponent = 0.07;
 
@@ -70,7 +70,8 @@ SimulatedParticipant drawParticipant(const SimulatedPopulation& population, cons
 /// The answer to session.next(). `lastRow` is the row before it (nothing at the start): times go on
 /// from there, in whole milliseconds, as if a person sat there: 0.7 s until the first stimulus and
 /// from an answer to the next, answers after 0.3 s + a log-normal time around 0.6 s. The times
-/// carry no information; they depend on the seed alone.
+/// carry no information; they depend on the seed alone. Where the design localises, "seen" comes
+/// with a click: near the middle of the image where the artifact was seen, anywhere for a guess.
 Answer simulatedAnswer(const SimulatedParticipant& participant, const Session& session,
                        const std::optional<records::Trial>& lastRow);
 

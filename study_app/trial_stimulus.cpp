@@ -2,14 +2,21 @@
 #include "study_app/trial_stimulus.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "records/quoted_text.h"
 #include "stimulus/stimulus_image.h"
 
 namespace study_app {
 namespace {
 
 using records::Trial;
+
+[[noreturn]] void fail(const Trial& trial, const std::string& sentence) {
+    throw std::invalid_argument("trial " + std::to_string(trial.number) + ": " + sentence);
+}
 
 stimulus::Pattern patternOf(const Trial& trial) {
     switch (trial.pattern) {
@@ -22,24 +29,43 @@ stimulus::Pattern patternOf(const Trial& trial) {
         case records::Pattern::frame:
             break;
     }
-    throw std::invalid_argument("trial " + std::to_string(trial.number) +
-                                ": pattern: frame: has no computed stimulus");
+    fail(trial, "pattern: frame: has no computed stimulus");
 }
 
-stimulus::KernelShape kernelOf(const Trial& trial) {
-    if (const auto shape = stimulus::kernelShapeFromText(trial.kernel)) return *shape;
-    throw std::invalid_argument("trial " + std::to_string(trial.number) +
-                                ": kernel: " + trial.kernel + ": must be disc, box or gaussian");
+stimulus::SilhouetteOptions silhouetteOf(const Trial& trial, int windowPx) {
+    stimulus::SilhouetteOptions o{.pattern = patternOf(trial),
+                                  .artifactPx = trial.artifactPx,
+                                  .riserSpacingPx = static_cast<double>(windowPx)};
+    if (trial.pattern == records::Pattern::line) o.angleDeg = trial.angleDeg.value_or(45);
+    return o;
+}
+
+void setKernel(stimulus::StimulusOptions& o, const Trial& trial) {
+    o.kernel.radiusPx = trial.filterRadiusPx;
+    o.taps = stimulus::tapKernelFromText(trial.kernel);
+    if (o.taps) return;
+    const auto shape = stimulus::kernelShapeFromText(trial.kernel);
+    if (!shape) {
+        fail(trial, "kernel: " + records::quotedText(trial.kernel) +
+                        ": must be disc, box, gaussian or poisson with a number of taps");
+    }
+    o.kernel.shape = *shape;
+}
+
+void setNoise(stimulus::StimulusOptions& o, const Trial& trial) {
+    o.noiseLevels = trial.noiseLevels.value_or(0);
+    o.dither = trial.dither.value_or(false);
+    if ((o.taps || o.noiseLevels > 0 || o.dither) && !trial.imageSeed) {
+        fail(trial, "image_seed: n/a: turned taps, noise and dither cannot be redrawn without it");
+    }
+    o.seed = static_cast<std::uint64_t>(trial.imageSeed.value_or(0));
 }
 
 stimulus::StimulusOptions stimulusOf(const Trial& trial, int windowPx) {
     stimulus::StimulusOptions o;
-    o.silhouette.pattern = patternOf(trial);
-    o.silhouette.artifactPx = trial.artifactPx;
-    if (trial.pattern == records::Pattern::line)
-        o.silhouette.angleDeg = trial.angleDeg.value_or(45);
-    o.silhouette.riserSpacingPx = windowPx;
-    o.kernel = {.shape = kernelOf(trial), .radiusPx = trial.filterRadiusPx};
+    o.silhouette = silhouetteOf(trial, windowPx);
+    setKernel(o, trial);
+    setNoise(o, trial);
     o.windowPx = windowPx;
     o.litLevel = trial.litLevel;
     o.encoding = trial.encoding == records::Encoding::code ? stimulus::Encoding::code
@@ -62,8 +88,8 @@ bool TrialImages::operator==(const TrialImages& other) const {
     return sameCodes(left, other.left) && sameCodes(right, other.right);
 }
 
-TrialImages trialImages(const Trial& trial, int windowPx) {
-    const stimulus::StimulusOptions o = stimulusOf(trial, windowPx);
+TrialImages trialImages(const Trial& trial, const Design& design) {
+    const stimulus::StimulusOptions o = stimulusOf(trial, design.windowPx);
     if (trial.task == records::Task::yesNo) {
         const bool artifact = trial.type == records::TrialType::artifact;
         return {artifact ? stimulus::artifactImage(o) : stimulus::straightImage(o), {}};
@@ -73,83 +99,32 @@ TrialImages trialImages(const Trial& trial, int windowPx) {
     return {std::move(straight), std::move(artifact)};
 }
 
-std::vector<Trial> possibleNext(const Session& session) {
-    std::vector<Trial> trials;
-    if (session.finished()) return trials;
-    const bool sides = session.design().task == records::Task::twoAfc;
-    using records::Response;
-    for (const Response response :
-         {sides ? Response::left : Response::seen, sides ? Response::right : Response::notSeen}) {
-        Session answered = session;
-        answered.answer({.response = response});
-        if (!answered.finished()) trials.push_back(answered.next());
+std::optional<double> clickDistancePx(const Trial& trial, int windowPx, double clickXPx,
+                                      double clickYPx) {
+    if (trial.type != records::TrialType::artifact || trial.pattern == records::Pattern::frame) {
+        return {};
     }
-    return trials;
-}
-
-StimulusPrefetcher::StimulusPrefetcher(int windowPx)
-    : windowPx_(windowPx), worker_([this](std::stop_token stop) { work(stop); }) {}
-
-StimulusPrefetcher::~StimulusPrefetcher() {
-    worker_.request_stop();
-    changed_.notify_all();
-}
-
-StimulusPrefetcher::Job* StimulusPrefetcher::find(const Trial& trial) {
-    const auto found =
-        std::ranges::find_if(jobs_, [&](const Job& job) { return job.trial == trial; });
-    return found == jobs_.end() ? nullptr : &*found;
-}
-
-void StimulusPrefetcher::request(std::vector<Trial> trials) {
-    const std::scoped_lock lock(mutex_);
-    jobs_.remove_if([&](const Job& job) {
-        const bool wanted = std::ranges::find(trials, job.trial) != trials.end();
-        return !wanted && (job.done || !job.begun);
-    });
-    for (Trial& trial : trials) {
-        if (find(trial) == nullptr) jobs_.push_back({.trial = std::move(trial)});
+    // Back through turns, mirror and shift to the silhouette's own axes, y up.
+    double x = clickXPx, y = clickYPx;
+    for (int turn = 0; turn < trial.orientationQuarter.value_or(0); ++turn) {
+        x = std::exchange(y, x);
+        x = windowPx - x;
     }
-    changed_.notify_all();
-}
+    if (trial.mirror.value_or(false)) x = windowPx - x;
+    const int origin = windowPx / 2;
+    x -= origin;
+    y = windowPx - y - origin - trial.shiftPx.value_or(0);
 
-TrialImages StimulusPrefetcher::take(const Trial& trial) {
-    std::unique_lock lock(mutex_);
-    Job* job = find(trial);
-    if (job == nullptr || !job->begun) {
-        lock.unlock();
-        return trialImages(trial, windowPx_);
+    const stimulus::Silhouette silhouette(silhouetteOf(trial, windowPx));
+    std::optional<double> nearest;
+    for (std::int64_t k = silhouette.texelAt(-origin) + 1; silhouette.riser(k) < windowPx - origin;
+         ++k) {
+        const double low = silhouette.height(k - 1), high = silhouette.height(k);
+        if (low == high) continue;  // between two texels of a flat line
+        const double beside = std::hypot(x - silhouette.riser(k), y - std::clamp(y, low, high));
+        nearest = std::min(nearest.value_or(beside), beside);
     }
-    changed_.wait(lock, [&] { return job->done; });
-    if (job->error) std::rethrow_exception(job->error);
-    return job->images;
-}
-
-void StimulusPrefetcher::work(std::stop_token stop) {
-    std::unique_lock lock(mutex_);
-    while (!stop.stop_requested()) {
-        const auto waiting = std::ranges::find_if(jobs_, [](const Job& job) { return !job.begun; });
-        if (waiting == jobs_.end()) {
-            changed_.wait(lock, stop, [&] {
-                return std::ranges::any_of(jobs_, [](const Job& job) { return !job.begun; });
-            });
-            continue;
-        }
-        waiting->begun = true;
-        lock.unlock();
-        TrialImages images;
-        std::exception_ptr error;
-        try {
-            images = trialImages(waiting->trial, windowPx_);
-        } catch (...) {
-            error = std::current_exception();
-        }
-        lock.lock();
-        waiting->images = std::move(images);
-        waiting->error = error;
-        waiting->done = true;
-        changed_.notify_all();
-    }
+    return nearest;
 }
 
 }  // namespace study_app

@@ -17,7 +17,7 @@ std::vector<std::string> addWindowOptions(CLI::App& app, WindowArguments& a) {
         app.add_flag("--start", a.start,
                      "Begin at the instructions, without set-up and calibration screens"),
         app.add_option("--presentation", a.presentation,
-                       "JSON file: pace of a trial, breaks, practice (docs/study-window.md)"),
+                       "JSON file of pace, breaks, practice instead of the design's own"),
         app.add_option("--instructions", a.instructions,
                        "Text file that the observer reads first (default: the shipped one)"),
         app.add_option("--displays", a.displays,
@@ -56,7 +56,7 @@ void apply(const WindowArguments& a, WindowRun& run) {
                                      ": must be 2afc or yes_no");
         }
     }
-    if (!a.presentation.empty()) run.presentation = readPresentation(a.presentation);
+    if (!a.presentation.empty()) run.form.presentation = readPresentation(a.presentation);
     run.instructions = a.instructions;
     run.displays = a.displays;
     run.screenshots = a.screenshots;

@@ -114,13 +114,12 @@ TEST(Study, RefusesMixedTasksKernelsAndEncodings) {
 TEST(Study, LeavesOutWhatDoesNotEnterAndSaysSo) {
     auto tables = tablesOf({.observers = 1, .sizes = {10}, .trials = 10});
     TrialTable& table = tables[0];
-    table.extraColumns = {"noise_levels"};
-    for (records::Trial& trial : table.trials) trial.extra = {"0"};
-    table.trials[0].extra = {"10"};
+    for (records::Trial& trial : table.trials) trial.noiseLevels = 0;
+    table.trials[0].noiseLevels = 10;
     table.trials[1].status = records::TrialStatus::undone;
     table.trials[2].litLevel = 0;
     table.trials[3].type = records::TrialType::reference;
-    table.trials[4].extra = {"n/a"};
+    table.trials[4].noiseLevels.reset();
     const Study study = studyOf(tables);
     EXPECT_EQ(trialCount(study), 6);
     EXPECT_THAT(study.notices,
@@ -129,10 +128,6 @@ TEST(Study, LeavesOutWhatDoesNotEnterAndSaysSo) {
                     HasSubstr("1 trial left out: status undone"),
                     HasSubstr("1 trial left out: lit level 0 shows no edge"),
                     HasSubstr("1 trial left out: a reference trial in 2AFC tests nothing")));
-    table.trials[5].extra = {"loud"};
-    EXPECT_EQ(refusal(tables),
-              "sub-001_task-hideartifact_beh.tsv, trial 6, column noise_levels: "
-              "'loud': must be a number or n/a");
 }
 
 TEST(Study, NeedsAtLeastOneTrial) {

@@ -59,7 +59,9 @@ auto oneOf(std::mt19937_64& random, const Words& words) {
 
 void answer(std::mt19937_64& random, Trial& trial) {
     trial.correct = coin(random);
-    if (trial.task == Task::twoAfc) {
+    if (trial.status != TrialStatus::ok && coin(random)) {
+        trial.correct = false;
+    } else if (trial.task == Task::twoAfc) {
         trial.response = coin(random) ? Response::left : Response::right;
         if (coin(random))
             trial.side = trial.correct == (trial.response == Response::left) ? "left" : "right";
@@ -92,9 +94,9 @@ Trial randomTrial(std::mt19937_64& random, int number, std::size_t extraCells) {
     trial.task = oneOf(random, kTaskWords);
     trial.proposedRadiusPx = maybe(random, positive);
     trial.filterRadiusPx = positive(random);
+    trial.status = oneOf(random, kTrialStatusWords);
     answer(random, trial);
     trial.responseTimeS = maybe(random, positive);
-    trial.status = oneOf(random, kTrialStatusWords);
     trial.staircase = maybe(random, text);
     trial.encoding = maybe(random, [](auto& r) { return oneOf(r, kEncodingWords); });
     trial.orientationQuarter = maybe(random, [](auto& r) { return static_cast<int>(below(r, 4)); });
@@ -104,6 +106,12 @@ Trial randomTrial(std::mt19937_64& random, int number, std::size_t extraCells) {
     trial.onsetS = maybe(random, anyNumber);
     trial.thresholdMean = maybe(random, anyNumber);
     trial.thresholdSd = maybe(random, positive);
+    trial.noiseLevels = maybe(random, positive);
+    trial.dither = maybe(random, coin);
+    trial.imageSeed = maybe(random, [](auto& r) { return static_cast<int>(r() >> 33); });
+    trial.frame = maybe(random, text);
+    if (coin(random)) trial.clickXPx = trial.clickYPx = positive(random);
+    trial.clickDistancePx = maybe(random, positive);
     for (std::size_t i = 0; i < extraCells; ++i)
         trial.extra.push_back(coin(random) ? text(random) : coin(random) ? "n/a" : "");
     return trial;

@@ -48,7 +48,14 @@ constexpr char kName[] = "sub-07/beh/sub-07_task-hideartifact_beh.tsv";
 std::vector<Trial> someTrials(int count) {
     std::mt19937_64 random(7);
     auto trials = tests::randomTrials(random, count);
-    for (Trial& trial : trials) trial.status = TrialStatus::ok;
+    for (Trial& trial : trials) {
+        trial.status = TrialStatus::ok;
+        if (trial.response) continue;  // an ok trial has one; these are wrong
+        const bool artifact = trial.type == TrialType::artifact;
+        trial.response = trial.task == Task::twoAfc ? Response::left
+                         : artifact                 ? Response::notSeen
+                                                    : Response::seen;
+    }
     return trials;
 }
 

@@ -78,7 +78,7 @@ std::string parseError(const std::string& text) {
 
 TEST(TrialTable, EveryTableThatCanBeWrittenReadsBackExactly) {
     std::mt19937_64 random(1);
-    const std::vector<std::string> extras[] = {{}, {"noise_levels"}, {"größe", "x y"}};
+    const std::vector<std::string> extras[] = {{}, {"mood"}, {"größe", "x y"}};
     for (int round = 0; round < 300; ++round) {
         const auto& extraColumns = extras[round % 3];
         const auto trials = tests::randomTrials(random, round % 20, extraColumns.size());
@@ -122,12 +122,12 @@ TEST(TrialTable, TakesTheColumnsInAnyOrder) {
 
 TEST(TrialTable, KeepsExtraColumnsAsText) {
     Cells cells = plainTable();
-    cells.columns.insert(cells.columns.begin(), "noise_levels");
+    cells.columns.insert(cells.columns.begin(), "mood");
     for (auto& row : cells.rows) row.insert(row.begin(), "20");
     cells.columns.push_back("remark");
     for (auto& row : cells.rows) row.push_back("");
     const TrialTable table = parsed(cells);
-    EXPECT_THAT(table.extraColumns, ElementsAre("noise_levels", "remark"));
+    EXPECT_THAT(table.extraColumns, ElementsAre("mood", "remark"));
     EXPECT_THAT(table.trials[2].extra, ElementsAre("20", ""));
 }
 
@@ -222,6 +222,11 @@ TEST(TrialTable, NamesFileLineColumnValueAndRuleOfEveryBadCell) {
         {"mirror", "-1", "must be 0 or 1, or n/a"},
         {"shift_px", "0.5", "must be a whole number"},
         {"threshold_sd", "-1", "must be a number of at least 0, or n/a"},
+        {"response", "n/a", "must be an answer where the status is ok"},
+        {"noise_levels", "loud", "must be a number of at least 0, or n/a"},
+        {"image_seed", "2147483648", "must be a whole number from 0 to 2147483647, or n/a"},
+        {"dither", "2", "must be 0 or 1, or n/a"},
+        {"click_x_px", "-1", "must be a number of at least 0, or n/a"},
         {"staircase", "", "must be a text that is not empty, or n/a"},
     };
     for (const BadCell& bad : kBad) {
@@ -399,13 +404,14 @@ TEST(TrialTable, ReadsTheHumanTablesAsTheyAre) {
         const TrialTable table = readTrialTable(file);
         EXPECT_LE(table.notices.size(), 1u);
         for (const auto& notice : table.notices) EXPECT_THAT(notice, HasSubstr("filter_radius_px"));
-        EXPECT_THAT(table.extraColumns, ElementsAre("noise_levels"));
+        EXPECT_THAT(table.extraColumns, IsEmpty());
         const auto lines = tests::readBytes(file);
         EXPECT_EQ(static_cast<std::ptrdiff_t>(table.trials.size()) + 1,
                   std::count(lines.begin(), lines.end(), '\n'));
         for (const Trial& trial : table.trials) {
             EXPECT_EQ(trial.task, Task::yesNo);
             EXPECT_EQ(trial.proposedRadiusPx, std::nullopt);
+            EXPECT_TRUE(trial.noiseLevels.has_value());
         }
     }
 }

@@ -144,7 +144,8 @@ TEST(StimulusImage, StraightPanelTakesItsTilt) {
 TEST(StimulusImage, DitherKeepsTheMeanAndChangesNoFlatPart) {
     auto stimulus = options({.pattern = Pattern::stair, .artifactPx = 10}, {KernelShape::disc, 60});
     stimulus.encoding = Encoding::code;
-    stimulus.ditherSeed = 7;
+    stimulus.dither = true;
+    stimulus.seed = 7;
     const cv::Mat v = artifactVisibilityImage(stimulus), codes = artifactImage(stimulus);
     double sum = 0;
     int count = 0;
@@ -160,13 +161,14 @@ TEST(StimulusImage, DitherKeepsTheMeanAndChangesNoFlatPart) {
     // million.
     EXPECT_NEAR(sum / count, 0, 5 * 0.5 / std::sqrt(count));
     EXPECT_TRUE(identical(codes, artifactImage(stimulus)));  // same seed, same image
-    stimulus.ditherSeed = 8;
+    stimulus.seed = 8;
     EXPECT_FALSE(identical(codes, artifactImage(stimulus)));
 }
 
 TEST(StimulusImage, DitherMovesWithTheImage) {
     auto stimulus = options({.pattern = Pattern::stair, .artifactPx = 10}, {KernelShape::disc, 60});
-    stimulus.ditherSeed = 7;
+    stimulus.dither = true;
+    stimulus.seed = 7;
     cv::Mat turned;
     cv::rotate(artifactImage(stimulus), turned, cv::ROTATE_90_COUNTERCLOCKWISE);
     stimulus.roving.quarterTurns = 1;

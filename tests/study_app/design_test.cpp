@@ -344,7 +344,7 @@ TEST(Design, ConditionsAreTheFullCrossingWithTrueAngles) {
         }
     }
     EXPECT_EQ(names.size(), conditions.size());
-    EXPECT_TRUE(names.contains("step-vertical-a8-lit0.25-box"));
+    EXPECT_TRUE(names.contains("step-vertical-a8-lit0.25-poisson4"));
     EXPECT_TRUE(names.contains("line22.5-a3-lit1-disc"));
 }
 

@@ -180,9 +180,8 @@ TEST_F(Recorded, RefusesTheSidecarOfAnotherParticipant) {
 TEST_F(Recorded, RefusesATableThatItDoesNotDerive) {
     answerSome(10);
     std::string text = contents(table());
-    const std::size_t line = text.find('\n', text.find("\n5\t") + 1);  // end of trial 5's row
-    const std::size_t cell = text.rfind('\t', line) + 1;               // its threshold_sd
-    text[cell] = text[cell] == '0' ? '1' : '0';
+    const std::size_t name = text.find("-lit", text.find("\n5\t"));  // of trial 5's condition
+    text[name + 4] = '9';
     write(table(), text);
     EXPECT_THAT(errorOf(request()), AllOf(HasSubstr("line 6"), HasSubstr("cannot go on")));
     EXPECT_EQ(contents(table()), text);

@@ -67,8 +67,8 @@ TEST_P(BothTasks, ResumesAnywhereWithTheBitIdenticalNextTrial) {
         Trial expected = rows[stop];
         expected.response = {};  // next() is everything but the answer
         expected.correct = false;
-        expected.responseTimeS = expected.onsetS = expected.thresholdMean =
-            expected.thresholdSd = {};
+        expected.responseTimeS = expected.onsetS = expected.thresholdMean = expected.thresholdSd =
+            expected.clickXPx = expected.clickYPx = expected.clickDistancePx = {};
         ASSERT_EQ(session.next(), expected) << "after " << stop << " rows";
     }
 }
@@ -186,6 +186,8 @@ TEST_P(BothTasks, ReplayFindsTheFirstCellThatWasChanged) {
     const auto nextBit = [](double v) { return std::nextafter(v, 1e9); };
     differs("trial", [](Trial& t) { ++t.number; });
     differs("condition", [](Trial& t) { t.condition += "x"; });
+    differs("image_seed", [](Trial& t) { *t.imageSeed ^= 1; });
+    differs("dither", [](Trial& t) { t.dither = false; });
     differs("kernel", [](Trial& t) { t.kernel = "gaussian"; });
     differs("proposed_radius_px",
             [&](Trial& t) { t.proposedRadiusPx = nextBit(*t.proposedRadiusPx); });

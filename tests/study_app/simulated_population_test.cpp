@@ -45,8 +45,10 @@ TEST(SimulatedPopulation, RefusesBadTextWithKeyValueAndRule) {
     EXPECT_THAT(errorOf("simulated:c=2,"), HasSubstr("key=value"));
     EXPECT_THAT(errorOf("simulated:slope=2"), HasSubstr("\"slope\""));
     EXPECT_THAT(errorOf("simulated:c=2,c=2"), HasSubstr("c: stands twice"));
-    for (const char* value : {"", "x", "0", "-1", "nan", "inf", "1e999", "2 ", "+2", "2x"}) {
-        EXPECT_THAT(errorOf("simulated:c=" + std::string(value)), HasSubstr("greater than 0"))
+    for (const char* value :
+         {"", "x", "0", "-1", "nan", "inf", "1e999", "1e300", "2 ", "+2", "2x"}) {
+        EXPECT_THAT(errorOf("simulated:c=" + std::string(value)),
+                    HasSubstr("must be a number from 0.001 to 1000"))
             << value;
     }
     EXPECT_THAT(errorOf("simulated:lapse=1"), HasSubstr("lapse"));

@@ -303,7 +303,7 @@ TEST(StudyApp, AnswersMisuseWithOneSentence) {
         {with({"--participant", ""}), 1, "participant"},
         {with({"--session", "../x"}), 1, "../x"},
         {with({"--observer", "human"}), 1, "human"},
-        {with({"--observer", "simulated:c=0"}), 1, "greater than 0"},
+        {with({"--observer", "simulated:c=1e300"}), 1, "from 0.001 to 1000"},
     };
     for (const Misuse& misuse : misuses) {
         std::string shown;

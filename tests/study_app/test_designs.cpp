@@ -24,7 +24,9 @@ study_app::Design variedDesign(records::Task task) {
                        {.pattern = Pattern::step, .orientation = study_app::Orientation::vertical},
                        {.pattern = Pattern::line, .angleDeg = 22.5}};
     design.litLevels = {1, 0.25};
-    design.kernels = {"disc", "box"};
+    design.kernels = {"disc", "poisson4"};
+    design.dither = true;
+    design.localise = task == records::Task::yesNo;
     design.trialsPerCondition = 6;
     design.catchShare = 0.2;
     if (task == records::Task::yesNo) {

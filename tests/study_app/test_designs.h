@@ -13,7 +13,8 @@ namespace tests {
 study_app::Design shippedDesign(const std::string& name);
 std::filesystem::path shippedDesignFile(const std::string& name);
 
-/// Small, with every kind of silhouette, two kernels and catch trials.
+/// Small, with every kind of silhouette, two kernels, dither, clicks where the task has
+/// them, and catch trials.
 study_app::Design variedDesign(records::Task task);
 
 }  // namespace tests

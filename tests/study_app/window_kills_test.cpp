@@ -96,7 +96,8 @@ void WindowKills::check(const WindowPerson& person) {
     for (std::size_t i = 0; i < now.size(); ++i) {
         if (now[i].number != static_cast<int>(i + 1)) ++tally_.duplicate;
         if (now[i].status != TrialStatus::ok) continue;
-        EXPECT_EQ(records::toText(now[i].response), answersLeft(now[i].number) ? "left" : "right");
+        EXPECT_EQ(records::toText(now[i].response.value()),
+                  answersLeft(now[i].number) ? "left" : "right");
     }
     // What was there stays: only a status may have changed, to undone.
     for (std::size_t i = 0; i < before_.size(); ++i) {

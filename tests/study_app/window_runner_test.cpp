@@ -25,6 +25,8 @@ using records::Task;
 using records::Trial;
 using records::TrialStatus;
 
+const Presentation kPace{.blankS = 0.1, .fixationS = 0.1, .breakEveryTrials = 0};
+
 Design smallDesign(Task task = Task::twoAfc) {
     Design d;
     d.name = "small";
@@ -33,6 +35,7 @@ Design smallDesign(Task task = Task::twoAfc) {
     d.patterns = {{.pattern = records::Pattern::stair}, {.pattern = records::Pattern::step}};
     d.trialsPerCondition = 3;
     d.radius.max = 32;
+    d.presentation = kPace;
     return withTask(d, task);
 }
 
@@ -46,8 +49,6 @@ SessionRequest requestIn(const tests::TemporaryFolder& folder, Task task = Task:
             .displayHeightPx = 800,
             .context = records::currentRunContext("study_app", {"study_app"})};
 }
-
-const Presentation kPace{.blankS = 0.1, .fixationS = 0.1, .breakEveryTrials = 0};
 
 Side sideOf(const Trial& trial, bool right) {
     const bool seen = trial.task == Task::twoAfc ? trial.side == "right"
@@ -74,7 +75,7 @@ struct Sitting {
 
 TEST(SessionRunner, RecordsEveryAnswerBeforeTheNextTrial) {
     const tests::TemporaryFolder folder;
-    SessionRunner runner(requestIn(folder), kPace);
+    SessionRunner runner(requestIn(folder));
     Sitting person{runner};
     runner.begin(SessionRunner::Stage::session, person.now);
     std::optional<RunnerEvent> event;
@@ -93,7 +94,7 @@ TEST(SessionRunner, RecordsEveryAnswerBeforeTheNextTrial) {
 
 TEST(SessionRunner, RepeatsWhatWasTooFastOrDisturbed) {
     const tests::TemporaryFolder folder;
-    SessionRunner runner(requestIn(folder), kPace);
+    SessionRunner runner(requestIn(folder));
     Sitting person{runner};
     runner.begin(SessionRunner::Stage::session, person.now);
     person.show();
@@ -118,7 +119,7 @@ TEST(SessionRunner, RepeatsWhatWasTooFastOrDisturbed) {
 
 TEST(SessionRunner, UndoneAnswersLeaveTheStaircasesAsIfTheyHadNotBeenGiven) {
     const tests::TemporaryFolder folder;
-    SessionRunner runner(requestIn(folder), kPace);
+    SessionRunner runner(requestIn(folder));
     Sitting person{runner};
     runner.begin(SessionRunner::Stage::session, person.now);
     for (int i = 0; i < 4; ++i) {
@@ -150,9 +151,9 @@ TEST(SessionRunner, UndoneAnswersLeaveTheStaircasesAsIfTheyHadNotBeenGiven) {
 
 TEST(SessionRunner, AsksForBreaksByTheNumberOfAnswers) {
     const tests::TemporaryFolder folder;
-    Presentation pace = kPace;
-    pace.breakEveryTrials = 4;
-    SessionRunner runner(requestIn(folder), pace);
+    SessionRequest request = requestIn(folder);
+    request.design.presentation.breakEveryTrials = 4;
+    SessionRunner runner(request);
     Sitting person{runner};
     runner.begin(SessionRunner::Stage::session, person.now);
     std::vector<RunnerEvent> events;
@@ -172,14 +173,14 @@ TEST(SessionRunner, GoesOnWithItsClockAfterAResume) {
     const tests::TemporaryFolder folder;
     double last = 0;
     {
-        SessionRunner runner(requestIn(folder), kPace);
+        SessionRunner runner(requestIn(folder));
         Sitting person{runner};
         runner.begin(SessionRunner::Stage::session, person.now);
         person.show();
         person.answer(true);
         last = runner.rows().back().onsetS.value() + 0.5;
     }
-    SessionRunner runner(requestIn(folder), kPace);
+    SessionRunner runner(requestIn(folder));
     Sitting person{runner, 3};  // the clock of another start
     EXPECT_EQ(runner.practice().rule(), kPace.resumedPractice);
     runner.begin(SessionRunner::Stage::session, person.now);
@@ -190,8 +191,8 @@ TEST(SessionRunner, GoesOnWithItsClockAfterAResume) {
 
 TEST(SessionRunner, RefusesASecondProgramOnTheSameSession) {
     const tests::TemporaryFolder folder;
-    const SessionRunner first(requestIn(folder), kPace);
-    EXPECT_THROW(SessionRunner(requestIn(folder), kPace), std::runtime_error);
+    const SessionRunner first(requestIn(folder));
+    EXPECT_THROW(SessionRunner(requestIn(folder)), std::runtime_error);
 }
 
 TEST(Practice, EndsWhenItsRuleIsMetAndAsksForHelpWhenItIsNot) {
@@ -226,7 +227,7 @@ TEST(TrialStimulus, IsWhatStimulusComputesOnTheSideThatTheRowNames) {
     Session session(smallDesign(), 5);
     for (int i = 0; i < 12; ++i) {
         const Trial& trial = session.next();
-        const TrialImages images = trialImages(trial, 64);
+        const TrialImages images = trialImages(trial, session.design());
         stimulus::StimulusOptions o;
         o.silhouette = {.pattern = trial.pattern == records::Pattern::stair
                                        ? stimulus::Pattern::stair
@@ -249,9 +250,10 @@ TEST(TrialStimulus, IsWhatStimulusComputesOnTheSideThatTheRowNames) {
 
 TEST(StimulusPrefetcher, HoldsWhicheverTrialComesNext) {
     Session session(smallDesign(), 5);
-    StimulusPrefetcher prefetcher(64);
+    StimulusPrefetcher prefetcher(session.design());
     for (int i = 0; i < 12; ++i) {
-        EXPECT_TRUE(prefetcher.take(session.next()) == trialImages(session.next(), 64));
+        EXPECT_TRUE(prefetcher.take(session.next()) ==
+                    trialImages(session.next(), session.design()));
         const std::vector<Trial> coming = possibleNext(session);
         prefetcher.request(coming);
         session.answer({.response = i % 3 == 0 ? Response::left : Response::right});
@@ -261,9 +263,10 @@ TEST(StimulusPrefetcher, HoldsWhicheverTrialComesNext) {
 }
 
 TEST(StimulusPrefetcher, PassesErrorsOn) {
-    Trial trial = Session(smallDesign(), 5).next();
+    const Design design = smallDesign();
+    Trial trial = Session(design, 5).next();
     trial.kernel = "star";
-    StimulusPrefetcher prefetcher(64);
+    StimulusPrefetcher prefetcher(design);
     EXPECT_THROW(prefetcher.take(trial), std::invalid_argument);
     prefetcher.request({trial});
     EXPECT_THROW(prefetcher.take(trial), std::invalid_argument);
@@ -306,7 +309,7 @@ TEST(SetupForm, FindsWhatIsThereAndKeepsToIt) {
     form.participant = "01";
     EXPECT_EQ(findExisting(form).state, ExistingSession::State::none);
     {
-        SessionRunner runner(requestIn(folder), kPace);
+        SessionRunner runner(requestIn(folder));
         Sitting person{runner};
         runner.begin(SessionRunner::Stage::session, person.now);
         person.show();

@@ -54,7 +54,7 @@ TEST_F(WindowSession, QuickDesignFromSetUpToEndRecordsWhatWasPressed) {
     const auto recorded = rows();
     ASSERT_EQ(recorded.size(), pressed.size());
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-        EXPECT_EQ(records::toText(recorded[i].response), pressed[i]);
+        EXPECT_EQ(records::toText(recorded[i].response.value()), pressed[i]);
         EXPECT_EQ(recorded[i].status, TrialStatus::ok);
         EXPECT_GT(recorded[i].responseTimeS.value(), 0);
     }
@@ -171,7 +171,7 @@ double noticedUpTo(const study_app::Design& design, const study_app::Condition& 
     double noticed = 0;
     for (double r = 0.5 * condition.artifactPx; r < design.radius.max; r *= 1.03) {
         trial.filterRadiusPx = r;
-        const study_app::TrialImages images = study_app::trialImages(trial, design.windowPx);
+        const study_app::TrialImages images = study_app::trialImages(trial, design);
         const double difference =
             study_app::contourBend(images.left) - study_app::contourBend(images.right);
         if (difference > study_app::kNoticeablePx) noticed = r;
