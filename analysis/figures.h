@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The figures of a slope report as gnuplot scripts with their data inline.
+// The figures of a slope report. Each is absent where the study has nothing to draw in it, and says
+// in its caption what was chosen where a study is too large to be drawn whole.
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
+#include "analysis/figure.h"
 #include "analysis/reference_sizes.h"
 #include "analysis/slope_analysis.h"
 
@@ -17,11 +17,14 @@ inline constexpr double kPublishedSlope = 3.47;
 
 /// Threshold radius against artifact size, one panel per pattern (or angle) that was shown at two
 /// sizes or more (all, where none was): each condition with its interval, the fitted law with its
-/// band, the reference size R1/2, and what was published. Writes `svgName`.
-std::string thresholdAgainstSizeScript(const SlopeAnalysis& analysis,
-                                       const ReferenceSizes& reference, const std::string& svgName);
-
+/// band, and what was published (the paper's Fig. 4).
+Figure thresholdAgainstSize(const SlopeAnalysis& analysis);
+/// The same beside the reference sizes R1/2 and R1, on logarithmic axes.
+std::optional<Figure> referenceComparison(const SlopeAnalysis& analysis,
+                                          const ReferenceSizes& reference);
+/// c against the lit level (the paper's Fig. 5).
+std::optional<Figure> slopeAgainstLight(const SlopeAnalysis& analysis);
 /// Every group's c with its interval, the overall slope and the headline.
-std::string slopesByGroupScript(const SlopeAnalysis& analysis, const std::string& svgName);
+Figure slopesByGroup(const SlopeAnalysis& analysis);
 
 }  // namespace analysis

@@ -44,19 +44,20 @@ ReferenceSizes referenceSizes(const Study& study) {
         const Group& group = study.groups[condition.group];
         const auto silhouette = silhouetteOf(group, condition);
         if (!silhouette || !kernel) continue;
-        const auto radius = stimulus::referenceRadius({.silhouette = *silhouette,
-                                                       .kernel = *kernel,
-                                                       .litLevel = group.litLevel,
-                                                       .encoding = encoding,
-                                                       .maxRadiusPx = kReferenceBoundPx},
-                                                      stimulus::ReferenceCriterion::halfCode);
-        if (radius) sizes[{group.name, condition.artifactPx}] = *radius;
+        const stimulus::ReferenceOptions options{.silhouette = *silhouette,
+                                                 .kernel = *kernel,
+                                                 .litLevel = group.litLevel,
+                                                 .encoding = encoding,
+                                                 .maxRadiusPx = kReferenceBoundPx};
+        sizes[{group.name, condition.artifactPx}] = {
+            stimulus::referenceRadius(options, stimulus::ReferenceCriterion::halfCode),
+            stimulus::referenceRadius(options, stimulus::ReferenceCriterion::oneCode)};
     }
     return sizes;
 }
 
-std::optional<double> referenceSize(const ReferenceSizes& sizes, const Study& study,
-                                    std::size_t k) {
+std::optional<ReferenceSize> referenceSize(const ReferenceSizes& sizes, const Study& study,
+                                           std::size_t k) {
     const Condition& condition = study.conditions[k];
     const auto found = sizes.find({study.groups[condition.group].name, condition.artifactPx});
     return found == sizes.end() ? std::nullopt : std::optional(found->second);

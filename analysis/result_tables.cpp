@@ -28,6 +28,18 @@ std::string rounded(const std::optional<double>& value, int decimals) {
     return value ? fixedText(*value, decimals) : kUnknown;
 }
 
+// The threshold radius of a condition, px.
+std::optional<double> radiusOf(const SlopeAnalysis& analysis, std::size_t condition) {
+    const ConditionResult& result = analysis.conditions[condition];
+    if (!result.c) return std::nullopt;
+    return std::pow(10.0, result.c->value) * analysis.study.conditions[condition].artifactPx;
+}
+
+std::optional<double> inDegrees(const Study& study, const std::optional<double>& px) {
+    if (!px.has_value() || !study.pxPerDeg.has_value()) return std::nullopt;
+    return px.value() / study.pxPerDeg.value();
+}
+
 // c, low, high.
 void appendSlope(Row& row, const std::optional<double>& log10c,
                  const std::optional<records::Interval>& ci95) {
@@ -106,7 +118,8 @@ TextTable conditionFile(const SlopeAnalysis& analysis, const ReferenceSizes& ref
     TextTable table{.name = "conditions",
                     .caption = "",
                     .head = {"group", "artifact_px", "angle_deg", "observers", "trials", "c",
-                             "c_low", "c_high", "radius_px", "reference_radius_px", "flag"},
+                             "c_low", "c_high", "radius_px", "artifact_deg", "radius_deg",
+                             "reference_half_code_px", "reference_one_code_px", "flag"},
                     .rows = {}};
     for (std::size_t k = 0; k < analysis.conditions.size(); ++k) {
         const Condition& condition = analysis.study.conditions[k];
@@ -116,8 +129,13 @@ TextTable conditionFile(const SlopeAnalysis& analysis, const ReferenceSizes& ref
                    std::to_string(result.trials)};
         const auto log10c = result.c ? std::optional(result.c->value) : std::nullopt;
         appendSlope(row, log10c, result.c ? result.c->ci95() : std::nullopt);
-        row.push_back(log10c ? full(std::pow(10.0, *log10c) * condition.artifactPx) : kUnknown);
-        row.push_back(full(referenceSize(reference, analysis.study, k)));
+        const std::optional<double> radius = radiusOf(analysis, k);
+        row.push_back(full(radius));
+        row.push_back(full(inDegrees(analysis.study, condition.artifactPx)));
+        row.push_back(full(inDegrees(analysis.study, radius)));
+        const auto size = referenceSize(reference, analysis.study, k);
+        row.push_back(full(size ? size->halfCode : std::nullopt));
+        row.push_back(full(size ? size->oneCode : std::nullopt));
         row.push_back(result.flag.empty() ? kUnknown : result.flag);
         table.rows.push_back(row);
     }
@@ -199,27 +217,44 @@ TextTable groupReport(const SlopeAnalysis& analysis) {
     return table;
 }
 
+std::string referenceText(const std::optional<ReferenceSize>& size,
+                          std::optional<double> ReferenceSize::*radius) {
+    if (!size) return kUnknown;
+    return *size.*radius ? fixedText(*(*size.*radius), 1) : "> " + shortText(kReferenceBoundPx);
+}
+
 TextTable conditionReport(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
     TextTable table{
         .name = "conditions",
         .caption =
-            "Each condition by itself: its slope with 95 % interval, the threshold "
-            "radius, and the reference size R1/2 from which no display code "
-            "differs by more than rounding.",
-        .head = {"group", "a (px)", "observers", "trials", "c", "radius (px)", "R1/2 (px)"},
+            "Each condition by itself: its slope with 95 % interval, the threshold radius, and the "
+            "reference sizes from which no display code differs by more than rounding (R1/2) or by "
+            "more than 1 (R1).",
+        .head = {"group", "a (px)", "observers", "trials", "c", "radius (px)", "R1/2 (px)",
+                 "R1 (px)"},
         .rows = {}};
+    const bool degrees = analysis.study.pxPerDeg.has_value();
+    if (degrees) table.head.insert(table.head.end(), {"a (deg)", "radius (deg)"});
     for (std::size_t k = 0; k < analysis.conditions.size(); ++k) {
         const Condition& condition = analysis.study.conditions[k];
         const ConditionResult& result = analysis.conditions[k];
         std::string name = analysis.study.groups[condition.group].name;
         if (!result.flag.empty()) name += " (" + result.flag + ")";
-        const auto radius =
-            result.c ? std::optional(std::pow(10.0, result.c->value) * condition.artifactPx)
-                     : std::nullopt;
-        table.rows.push_back({name, shortText(condition.artifactPx),
-                              std::to_string(result.observers), std::to_string(result.trials),
-                              result.c ? slopeText(*result.c) : kUnknown, rounded(radius, 1),
-                              rounded(referenceSize(reference, analysis.study, k), 1)});
+        const std::optional<double> radius = radiusOf(analysis, k);
+        const auto size = referenceSize(reference, analysis.study, k);
+        Row row = {name,
+                   shortText(condition.artifactPx),
+                   std::to_string(result.observers),
+                   std::to_string(result.trials),
+                   result.c ? slopeText(*result.c) : kUnknown,
+                   rounded(radius, 1),
+                   referenceText(size, &ReferenceSize::halfCode),
+                   referenceText(size, &ReferenceSize::oneCode)};
+        if (degrees) {
+            row.push_back(rounded(inDegrees(analysis.study, condition.artifactPx), 2));
+            row.push_back(rounded(inDegrees(analysis.study, radius), 2));
+        }
+        table.rows.push_back(row);
     }
     return table;
 }

@@ -3,7 +3,6 @@
 
 #include "analysis/figures.h"
 #include "analysis/findings.h"
-#include "analysis/gnuplot.h"
 #include "analysis/number_text.h"
 #include "analysis/result_tables.h"
 #include "records/html_page.h"
@@ -13,29 +12,15 @@
 namespace analysis {
 namespace {
 
-struct Figure {
-    std::string name, caption, script;
-};
-
-std::vector<Figure> figures(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
-    const std::string criterion = "F* = " + fixedText(analysis.options.criterion, 3);
-    const std::string drawn =
-        analysis.slope.lawRejected
-            ? "Lines: the fit with a size exponent, since the law r = c a is rejected"
-            : "Lines and bands: the fitted law r = c a with its 95 % interval";
-    return {{"threshold_against_size",
-             "Filter radius at which the artifact is detected with probability " + criterion +
-                 ", against the artifact's size, for the mean observer. Points: each condition by "
-                 "itself with its 95 % interval. " +
-                 drawn +
-                 ". Reference R1/2: the radius from which no display code differs by more than "
-                 "rounding (of the brightest lit level; outside the frame where it is not drawn).",
-             thresholdAgainstSizeScript(analysis, reference, "threshold_against_size.svg")},
-            {"slopes_by_group",
-             "Slope c of every group with its 95 % interval, on a logarithmic scale; the geometric "
-             "mean over groups; the headline (the worst group, its interval accounting for the "
-             "choice) for the mean and for the 90th-percentile observer.",
-             slopesByGroupScript(analysis, "slopes_by_group.svg")}};
+std::vector<Figure> figuresOf(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
+    std::vector<Figure> figures = {thresholdAgainstSize(analysis)};
+    const auto add = [&](std::optional<Figure> figure) {
+        if (figure) figures.push_back(std::move(*figure));
+    };
+    add(referenceComparison(analysis, reference));
+    add(slopeAgainstLight(analysis));
+    add(slopesByGroup(analysis));
+    return figures;
 }
 
 std::string page(const SlopeAnalysis& analysis, const records::Slope& slope,
@@ -56,7 +41,8 @@ std::string page(const SlopeAnalysis& analysis, const records::Slope& slope,
     }
     page.heading("Threshold against size");
     for (const Figure& figure : figures) {
-        page.svg(records::readWholeFile(folder / (figure.name + ".svg")), figure.caption);
+        page.svg(records::readWholeFile(folder / "figures" / (figure.name + ".svg")),
+                 figure.caption);
     }
     page.heading("Numbers");
     for (const TextTable& table : reportTables(analysis, reference)) {
@@ -79,14 +65,9 @@ void writeReport(const std::filesystem::path& folder, const SlopeAnalysis& analy
     for (const TextTable& table : fileTables(analysis, reference)) {
         records::writeWholeFile(folder / (table.name + ".tsv"), tsvText(table));
     }
-    const std::vector<Figure> drawn = figures(analysis, reference);
-    std::vector<std::string> scripts;
-    for (const Figure& figure : drawn) {
-        scripts.push_back(figure.name + ".gp");
-        records::writeWholeFile(folder / scripts.back(), figure.script);
-    }
     if (times) times->lap("tables");
-    runGnuplot(folder, scripts);
+    const std::vector<Figure> drawn = figuresOf(analysis, reference);
+    drawFigures(folder / "figures", drawn);
     if (times) times->lap("figures (gnuplot)");
     records::writeWholeFile(folder / "report.html",
                             page(analysis, slope, reference, folder, drawn));

@@ -143,14 +143,11 @@ void addFit(records::HtmlPage& page, const fs::path& folder) {
     page.heading("The slope that chose the sizes");
     page.paragraph(records::describe(slope) + ".");
     page.paragraph(slope.method);
-    std::vector<fs::path> figures;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".svg") figures.push_back(entry.path());
-    std::sort(figures.begin(), figures.end());
-    for (const fs::path& figure : figures) {
-        std::string caption = figure.stem().string();
-        std::replace(caption.begin(), caption.end(), '_', ' ');
-        page.svg(records::readWholeFile(figure), caption);
+    for (const auto& [name, caption] :
+         {std::pair{"threshold_against_size", "Filter radius at threshold against artifact size."},
+          std::pair{"slopes_by_group", "Slope c of every group, and the headline."}}) {
+        page.svg(records::readWholeFile(folder / "figures" / (std::string(name) + ".svg")),
+                 caption);
     }
 }
 

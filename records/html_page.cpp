@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
+// The page's style says the same of all its figures.
+constexpr std::string_view kBothSchemes =
+    "<style>@media screen and (prefers-color-scheme: dark) "
+    "{ svg { filter: invert(0.9) hue-rotate(180deg) } }</style>\n";
+
 std::string base64(std::string_view bytes) {
     static constexpr char kDigits[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -87,6 +92,8 @@ std::string svgElement(const std::string& svgText, const std::string& idPrefix) 
     for (const std::string_view mark :
          {" id=\"", " id='", "href=\"#", "href='#", "url(#", "url('#"})
         insertAfterEach(svg, mark, idPrefix);
+    if (const std::size_t at = svg.find(kBothSchemes); at != std::string::npos)
+        svg.erase(at, kBothSchemes.size());
     // gnuplot titles its figures "Gnuplot", which a browser would show under the mouse.
     for (std::size_t at; (at = svg.find("<title>Gnuplot</title>")) != std::string::npos;)
         svg.erase(at, std::string_view("<title>Gnuplot</title>").size());
@@ -125,6 +132,15 @@ std::string htmlEscaped(const std::string& text) {
     return out;
 }
 
+std::string svgForBothSchemes(const std::string& svgText) {
+    const std::size_t start = svgText.find("<svg");
+    const std::size_t end = start == std::string::npos ? start : svgText.find('>', start);
+    if (end == std::string::npos)
+        throw std::invalid_argument("figure: " + quotedText(svgText) + ": holds no <svg> element");
+    std::string svg = svgText;
+    return svg.insert(end + 1, "\n" + std::string(kBothSchemes));
+}
+
 HtmlPage::HtmlPage(std::string title) : title_(std::move(title)) {}
 
 void HtmlPage::element(const std::string& tag, const std::string& text) {
@@ -142,6 +158,13 @@ void HtmlPage::paragraph(const std::string& text) {
 }
 void HtmlPage::preformatted(const std::string& text) {
     element("pre", text);
+}
+
+void HtmlPage::terms(const std::vector<std::pair<std::string, std::string>>& list) {
+    body_ += "<dl>\n";
+    for (const auto& [term, text] : list)
+        body_ += "<dt>" + htmlEscaped(term) + "</dt><dd>" + htmlEscaped(text) + "</dd>\n";
+    body_ += "</dl>\n";
 }
 
 void HtmlPage::headline(const std::string& number, const std::string& meaning) {

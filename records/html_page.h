@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The self-contained HTML page that reports are written as: one file, no network, readable in light
-// and dark, in print and on a phone. Pictures and figures are embedded; figures keep their white
-// paper in the dark, since what gnuplot draws is drawn for paper.
+// and dark, in print and on a phone. Pictures and figures are embedded; figures are drawn for white
+// paper, and in the dark their lightness is turned round.
 //
 //   records::HtmlPage page("Slope report");
 //   page.headline("c = 3.41 [3.20, 3.63]", "F* = .646, ...");
@@ -14,12 +14,17 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace records {
 
 /// Escapes & < > " ' for text and attributes.
 std::string htmlEscaped(const std::string& text);
+
+/// An SVG drawn for white paper, as a file that follows the reader's scheme: in the dark its
+/// lightness is turned round and its hues stay. On a page every figure does that by itself.
+std::string svgForBothSchemes(const std::string& svgText);
 
 class HtmlPage {
   public:
@@ -28,6 +33,8 @@ class HtmlPage {
     void heading(const std::string& text);
     void subheading(const std::string& text);
     void paragraph(const std::string& text);
+    /// A list of terms, each with its text.
+    void terms(const std::vector<std::pair<std::string, std::string>>& list);
     void headline(const std::string& number,
                   const std::string& meaning);  ///< the one number, large
     void note(const std::string& text);         ///< set off: a warning, a limit, what was left out

@@ -11,13 +11,17 @@ inline constexpr std::string_view kHtmlStyle = R"css(
 :root {
   color-scheme: light dark;
   --ground: #fbfbfa; --ink: #1f2328; --quiet: #5b636d; --line: #dfe2e6; --raised: #f1f3f5;
-  --accent: #1f5fa8; --note: #fff6df; --note-line: #d9a520;
+  --accent: #1f5fa8; --paper: #fff; --note: #fff6df; --note-line: #d9a520;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --ground: #16191d; --ink: #e4e7eb; --quiet: #9aa4af; --line: #343a42; --raised: #20252b;
     --accent: #82b4f0; --note: #2b2616; --note-line: #b8922f;
   }
+}
+@media screen and (prefers-color-scheme: dark) {
+  :root { --paper: #1a1a1a; } /* what the filter makes of white */
+  .paper svg { filter: invert(0.9) hue-rotate(180deg); }
 }
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; text-size-adjust: 100%; }
@@ -48,20 +52,22 @@ figure { margin: 1.5rem 0 2rem; }
 figcaption { margin-top: .5rem; color: var(--quiet); font-size: .9rem; line-height: 1.5; max-width: 46rem; }
 figure img { display: block; max-width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
 .paper {
-  color-scheme: light; background: #fff; color: #000; padding: .75rem; border: 1px solid var(--line);
-  border-radius: 8px; overflow-x: auto;
+  padding: .75rem; background: var(--paper); border: 1px solid var(--line); border-radius: 8px; overflow-x: auto;
 }
+dl { margin: 0 0 1.5rem; display: grid; grid-template-columns: minmax(6rem, 9rem) minmax(0, 46rem); gap: .6rem 1.25rem; }
+dt { font-weight: 600; }
+dd { margin: 0; overflow-wrap: break-word; }
 .paper svg { display: block; margin: 0 auto; max-width: 100%; height: auto; }
 .gallery { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 1.25rem; margin: 1.5rem 0 2rem; }
 .gallery figure { margin: 0; }
 .gallery img { width: 100%; }
 .table figcaption { margin: 0 0 .5rem; }
-.scroll { overflow-x: auto; border: 1px solid var(--line); border-radius: 8px; width: fit-content; max-width: 100%; }
+.scroll { overflow: auto; max-height: 44rem; border: 1px solid var(--line); border-radius: 8px; width: fit-content; max-width: 100%; }
 .scroll:focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
 table { border-collapse: collapse; font-size: .92rem; line-height: 1.4; font-variant-numeric: tabular-nums; }
 th, td { padding: .45rem .9rem; text-align: left; vertical-align: top; }
 td { border-top: 1px solid var(--line); }
-th { font-weight: 600; background: var(--raised); vertical-align: bottom; }
+th { font-weight: 600; background: var(--raised); vertical-align: bottom; position: sticky; top: 0; }
 .number { text-align: right; white-space: nowrap; }
 tbody tr:hover { background: var(--raised); }
 pre {
@@ -75,7 +81,9 @@ pre {
   th, td { padding: .4rem .6rem; }
   td:not(.number) { min-width: 8rem; }
   .paper { padding: .35rem; }
-  .paper svg { min-width: 32rem; } /* scrolls, rather than shrinking its lettering beyond reading */
+  dl { grid-template-columns: 1fr; gap: .1rem; }
+  dd { margin-bottom: .7rem; }
+  .paper svg { min-width: 40rem; } /* scrolls, rather than shrinking its lettering beyond reading */
 }
 @media print {
   :root {
@@ -87,7 +95,7 @@ pre {
   h2, h3, .table figcaption { break-after: avoid; }
   .headline, .note, figure:not(.table), tr { break-inside: avoid; }
   thead { display: table-header-group; }
-  .scroll { overflow: visible; border: 0; width: auto; }
+  .scroll { overflow: visible; max-height: none; border: 0; width: auto; }
   .gallery { grid-template-columns: 1fr 1fr; }
   .paper svg { max-height: 10cm; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Slopes beside each other: of groups, and of observers.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "analysis/figures.h"
+#include "analysis/gnuplot.h"
+#include "analysis/number_text.h"
+
+namespace analysis {
+namespace {
+
+constexpr std::size_t kMostRows = 60;
+
+double c(double log10c) {
+    return std::pow(10.0, log10c);
+}
+
+// One row of a forest plot, log10 c.
+struct Line {
+    std::string name;
+    double value = 0;
+    std::optional<records::Interval> ci95;
+    std::size_t style = 0;  // 0 single, 1 summary
+};
+
+// Rows from the top, on a logarithmic axis, with the published slope as a vertical line.
+Figure forest(std::string name, std::string caption, const std::vector<Line>& lines,
+              const std::string& axis, bool named) {
+    double low = kPublishedSlope, high = kPublishedSlope;
+    std::ostringstream rows[2], tics;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const double row = static_cast<double>(lines.size() - i);
+        const Line& line = lines[i];
+        const double from = c(line.ci95 ? line.ci95->low : line.value);
+        const double to = c(line.ci95 ? line.ci95->high : line.value);
+        low = std::min(low, from);
+        high = std::max(high, to);
+        rows[line.style] << c(line.value) << ' ' << row << ' ' << from << ' ' << to << '\n';
+        if (named || line.style == 1) {
+            tics << (tics.tellp() > 0 ? ", " : "") << quotedForGnuplot(line.name) << ' ' << row;
+        }
+    }
+    const int rowPx = lines.size() <= 20 ? 26 : lines.size() <= kMostRows ? 18 : 5;
+    std::ostringstream plot;
+    plot << "set logscale x\n"
+         << "set xrange [" << low / 1.15 << ':' << high * 1.15 << "]\n"
+         << "set yrange [0.3:" << static_cast<double>(lines.size()) + 0.7 << "]\n"
+         << "set xlabel " << quotedForGnuplot(axis) << '\n'
+         << "set xtics " << logTics(low / 1.15, high * 1.15) << '\n'
+         << "set ytics (" << tics.str() << ") scale 0\n"
+         << "set grid xtics lc rgb '#dddddd' lw 0.6 dt solid\n"
+         << "set arrow 1 from " << kPublishedSlope << ", graph 0 to " << kPublishedSlope
+         << ", graph 1 nohead dt (2,3) lw 1.2 lc rgb '" << kInk << "'\n"
+         << "set label 1 'published 3.47' at " << kPublishedSlope
+         << ", graph 1 center offset 0,0.7 font ',11.5'\n"
+         << "set tmargin 2.5\nunset key\nplot ";
+    const char* separator = "";
+    if (rows[0].tellp() > 0) {
+        plot << "$single using 1:2:3:4 with xerrorbars pt 7 ps " << (rowPx < 10 ? 0.4 : 0.8)
+             << " lw " << (rowPx < 10 ? 0.7 : 1.4) << " lc rgb '" << seriesColour(0) << "'";
+        separator = ", \\\n     ";
+    }
+    if (rows[1].tellp() > 0) {
+        plot << separator << "$summary using 1:2:3:4 with xerrorbars pt 13 ps 1.2 lw 1.8 lc rgb '"
+             << seriesColour(1) << "'";
+    }
+    plot << '\n';
+    return {.name = std::move(name),
+            .caption = std::move(caption),
+            .widthPx = 760,
+            .heightPx = 120 + rowPx * static_cast<int>(lines.size()),
+            .data = dataBlock("single", rows[0].str()) + dataBlock("summary", rows[1].str()),
+            .plot = plot.str()};
+}
+
+}  // namespace
+
+Figure slopesByGroup(const SlopeAnalysis& analysis) {
+    std::vector<Line> lines;
+    for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
+        const LinearEstimate& own = analysis.groups[g].c;
+        lines.push_back({analysis.study.groups[g].name, own.value, own.ci95(), 0});
+    }
+    std::string chosen;
+    if (lines.size() > kMostRows) {
+        std::sort(lines.begin(), lines.end(),
+                  [](const Line& one, const Line& other) { return one.value > other.value; });
+        chosen = " Drawn are the " + std::to_string(kMostRows) + " largest of " +
+                 std::to_string(lines.size()) + " groups, by falling c.";
+        lines.resize(kMostRows);
+    }
+    if (analysis.groups.size() > 1) {
+        lines.push_back({"geometric mean", analysis.overall.value, analysis.overall.ci95(), 1});
+    }
+    const WorstGroup& headline = analysis.slope.headline;
+    lines.push_back({"headline", headline.value, headline.ci95, 1});
+    lines.push_back({"90th percentile", headline.value90, headline.ci95For90, 1});
+    return forest("slopes_by_group",
+                  "Slope c of every group with its 95 % interval, on a logarithmic scale; the "
+                  "geometric mean over groups; the headline (the worst group, its interval "
+                  "accounting for the choice) for the mean and for the 90th-percentile observer." +
+                      chosen,
+                  lines, "slope c = r/a", true);
+}
+
+}  // namespace analysis
