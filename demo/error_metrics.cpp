@@ -7,14 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "renderer/shader_math.h"
+
 namespace demo {
-namespace {
-
-bool inPenumbra(float v) {
-    return v > 0 && v < 1;
-}
-
-}  // namespace
 
 VisibilityError compareVisibility(const renderer::FloatImage& image,
                                   const renderer::FloatImage& reference) {
@@ -30,8 +25,9 @@ VisibilityError compareVisibility(const renderer::FloatImage& image,
     for (std::size_t i = 0; i < image.values.size(); ++i) {
         const double difference =
             static_cast<double>(image.values[i]) - static_cast<double>(reference.values[i]);
-        const bool counts = inPenumbra(image.values[i]) || inPenumbra(reference.values[i]) ||
-                            !(std::abs(difference) <= 0.5 / 255);
+        const bool counts = renderer::f32::inPenumbra(image.values[i]) ||
+                            renderer::f32::inPenumbra(reference.values[i]) ||
+                            !(std::abs(difference) <= renderer::f64::kVisibleShare);
         if (!counts) continue;
         sum += difference;
         squares += difference * difference;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How wrong a visibility image is against a reference of the same size. Measured on visibility, not
-// on shaded colour, and over penumbra pixels, where stair-steps are seen (METHODS section 8). A
-// *resolution error* has the same technique and radius on the largest map as its reference; it says
-// nothing about the technique itself.
+// on shaded colour, and over penumbra pixels of either, where stair-steps are seen (METHODS section
+// 8): a 1e-7 of light that rounding leaves in a full shadow is none. A *resolution error* has the
+// same technique and radius on the largest map as its reference; it says nothing about the
+// technique itself.
 #pragma once
 
 #include <cstddef>

@@ -43,31 +43,38 @@ rc::Slope toController(const records::Slope& slope) {
 void addSlopeOptions(CLI::App& app, SlopeOptions& options) {
     app.add_option("--slope", options.file,
                    "slope.json of a study; default: the published c = 3.47");
-    app.add_option("--detection", options.audience.detection,
+    app.add_option("--detection", options.detection,
                    "how often a stair-step may be detected by who looks for it; default: as the "
                    "slope was measured")
         ->check(CLI::Range(1e-6, 1 - 1e-6, "PROBABILITY"));
-    app.add_option("--people", options.audience.people, "share of people of whom that holds")
-        ->check(CLI::Range(0.01, 0.99, "SHARE"))
-        ->capture_default_str();
+    app.add_option("--people", options.people,
+                   "share of people of whom that holds; default: 0.5, the mean observer")
+        ->check(CLI::Range(0.01, 0.99, "SHARE"));
 }
 
 LoadedSlope loadSlope(const SlopeOptions& options) {
+    rc::Audience audience;
+    audience.detection = options.detection.value_or(audience.detection);
+    audience.people = options.people.value_or(audience.people);
+    return loadSlope(options.file, audience);
+}
+
+LoadedSlope loadSlope(const std::optional<std::filesystem::path>& file,
+                      const rc::Audience& audience) {
     LoadedSlope loaded;
     rc::Slope measured;
-    if (options.file) {
-        const records::Slope slope = records::readSlope(*options.file);
+    if (file) {
+        const records::Slope slope = records::readSlope(*file);
         measured = toController(slope);
         loaded.text = records::describe(slope);
-        loaded.file = options.file->string();
+        loaded.file = file->string();
     } else {
         loaded.text = rc::describe(measured) + ", as published; no slope file was given";
     }
-    const rc::AudienceSlope chosen = rc::slopeFor(measured, options.audience, kTraits);
+    const rc::AudienceSlope chosen = rc::slopeFor(measured, audience, kTraits);
     loaded.slope = chosen.slope;
-    if (options.audience != rc::kAsMeasured)
-        loaded.text +=
-            "; used here: " + rc::describe(chosen.slope) + ", " + rc::describe(options.audience);
+    if (audience != rc::kAsMeasured)
+        loaded.text += "; used here: " + rc::describe(chosen.slope) + ", " + rc::describe(audience);
     for (std::uint32_t bit = 1; bit <= rc::kAllWarnings; bit *= 2)
         if ((chosen.warnings & bit) != 0) loaded.notes.push_back(rc::text(rc::Warning(bit)));
     return loaded;

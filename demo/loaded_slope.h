@@ -19,7 +19,7 @@ namespace demo {
 /// What the command line says of it.
 struct SlopeOptions {
     std::optional<std::filesystem::path> file;  ///< slope.json; absent: the published slope
-    resolution_controller::Audience audience = resolution_controller::kAsMeasured;
+    std::optional<double> detection, people;    ///< of the audience, where given
 };
 /// --slope, --detection, --people with their ranges.
 void addSlopeOptions(CLI::App& app, SlopeOptions& options);
@@ -33,6 +33,8 @@ struct LoadedSlope {
 
 /// Throws what records::readSlope throws, and std::invalid_argument for an audience that slopeFor()
 /// refuses.
+LoadedSlope loadSlope(const std::optional<std::filesystem::path>& file,
+                      const resolution_controller::Audience& audience = {});
 LoadedSlope loadSlope(const SlopeOptions& options);
 
 }  // namespace demo

@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "demo/demo_stats.h"
-#include "demo/demo_window.h"
 #include "demo/picture.h"
-#include "demo/shadow_run.h"
+#include "demo/viewer.h"
+#include "demo/viewer_window.h"
 #include "program/run_program.h"
+#include "records/whole_file.h"
 #include "renderer/window.h"
 
 namespace {
 
+/// What was given replaces what the state file says, which replaces the defaults.
 struct Options {
-    std::string scene = "yard";
-    std::string technique = "pcf_disc";
+    std::optional<std::string> scene, technique, resolution, view, path;
     std::vector<std::string> parameters;
-    std::string resolution = "auto";
-    std::optional<double> radiusM, radiusUv;
+    std::optional<double> radiusM, radiusUv, detection, people;
+    std::optional<int> compareWith;
+    std::optional<float> gain, split;
     demo::SlopeOptions slope;
+    std::optional<std::filesystem::path> state;
     bool headless = false;
     std::optional<int> frames;
     int width = 1280, height = 720;
     int samples = 2;
-    std::optional<std::filesystem::path> screenshot, stats;
+    std::optional<std::filesystem::path> screenshot, stats, sequence;
     bool listTechniques = false, listScenes = false;
     std::vector<std::string> command;
 };
@@ -52,10 +56,11 @@ void listScenes() {
                     std::string(entry.description).c_str());
 }
 
-renderer::ParameterValues parametersOf(const Options& options,
-                                       const renderer::Technique& technique) {
-    renderer::ParameterValues values = technique.standardParameters();
-    for (const std::string& text : options.parameters) {
+void setParameters(const std::vector<std::string>& texts, demo::ViewerState& state) {
+    if (texts.empty()) return;
+    const renderer::Technique& technique = renderer::findTechnique(state.technique);
+    renderer::ParameterValues values = parametersOf(state);
+    for (const std::string& text : texts) {
         const std::size_t equals = text.find('=');
         char* end = nullptr;
         const float value =
@@ -64,23 +69,46 @@ renderer::ParameterValues parametersOf(const Options& options,
             throw std::invalid_argument("--parameter is \"" + text + "\", must be NAME=NUMBER");
         setParameter(technique, values, text.substr(0, equals), value);
     }
-    return values;
+    state.parameters[state.technique] = values;
+}
+
+demo::ViewerState stateOf(const Options& options) {
+    demo::ViewerState state;
+    if (options.state && std::filesystem::exists(*options.state))
+        state = demo::readViewerState(*options.state);
+    state.scene = options.scene.value_or(state.scene);
+    state.technique = options.technique.value_or(state.technique);
+    renderer::findTechnique(state.technique);  // before its parameters
+    setParameters(options.parameters, state);
+    if (options.resolution)
+        state.resolution = demo::parseResolution(*options.resolution, "--resolution");
+    if (options.radiusM || options.radiusUv) {
+        state.radiusM = options.radiusM;
+        state.radiusUv = options.radiusUv;
+    }
+    if (options.slope.detection) state.audience.detection = *options.slope.detection;
+    if (options.slope.people) state.audience.people = *options.slope.people;
+    if (options.view) state.view = demo::parseView(*options.view, "--view");
+    if (options.path) state.path = demo::parsePath(*options.path, "--path");
+    state.compareWith = options.compareWith.value_or(state.compareWith);
+    state.gain = options.gain.value_or(state.gain);
+    state.splitAt = options.split.value_or(state.splitAt);
+    return state;
 }
 
 /// Measures, and writes what was asked for.
-void report(const Options& options, const renderer::GlInfo& info, renderer::Renderer& frame,
-            demo::ShadowRun& run, const renderer::Technique& technique,
-            const renderer::ParameterValues& parameters, const demo::LoadedSlope& slope,
+void report(const Options& options, const renderer::GlInfo& info, demo::Viewer& viewer,
             int settlingFrames) {
     const int frames = options.frames.value_or(kHeadlessFrames);
+    const renderer::Renderer& frame = viewer.frame();
     demo::DemoStats stats;
     stats.context = records::currentRunContext("shadow_demo", options.command);
     stats.scene = frame.scene().name;
-    stats.technique = &technique;
-    stats.parameters = parameters;
-    stats.softness = demo::chooseSoftness(frame, options.radiusM, options.radiusUv);
+    stats.technique = &renderer::findTechnique(viewer.state().technique);
+    stats.parameters = parametersOf(viewer.state());
+    stats.softness = viewer.softness();
     stats.settlingFrames = settlingFrames;
-    stats.slope = slope;
+    stats.slope = viewer.slope();
     stats.mapExtentM = frame.window().extentM;
     stats.context.glRenderer = info.renderer;
     stats.context.glVersion = info.version;
@@ -88,18 +116,35 @@ void report(const Options& options, const renderer::GlInfo& info, renderer::Rend
     stats.context.viewportWidthPx = frame.widthPx();
     stats.context.viewportHeightPx = frame.heightPx();
     stats.timing = std::string(renderer::PassClock(info).method());
-    stats.wholeFrameMs = run.timeWholeFrames(frames);
-    stats.passesMs = run.timePasses(frames);
-    stats.chosen = run.chosen();
+    stats.wholeFrameMs = viewer.run().timeWholeFrames(frames);
+    stats.passesMs = viewer.run().timePasses(frames);
+    stats.chosen = viewer.run().chosen();
     stats.mapBytes = frame.mapBytes();
     stats.targetBytes = frame.targetBytes();
     stats.triangles = frame.triangles();
     if (options.stats) writeStats(*options.stats, stats);
-    if (options.screenshot) demo::writePng(*options.screenshot, run.picture(options.samples));
+    if (options.screenshot) demo::writePng(*options.screenshot, viewer.picture(options.samples));
     std::printf("%s, %s: N = %d (%s%s), %.1f ms a frame [%.1f, %.1f]\n", stats.scene.c_str(),
-                std::string(technique.name).c_str(), stats.chosen.resolution,
+                std::string(stats.technique->name).c_str(), stats.chosen.resolution,
                 stats.chosen.automatic ? "auto: " : "", stats.chosen.reason.c_str(),
                 stats.wholeFrameMs.median, stats.wholeFrameMs.p25, stats.wholeFrameMs.p75);
+}
+
+/// The path once round as numbered pictures.
+void writeSequence(const Options& options, demo::Viewer& viewer) {
+    const int frames = options.frames.value_or(kHeadlessFrames);
+    records::createFolders(*options.sequence);
+    for (int i = 0; i < frames; ++i) {
+        demo::ViewerState state = viewer.state();
+        state.pathPlace = static_cast<double>(i) / frames;
+        viewer.show(state);
+        viewer.step();
+        glFinish();  // the next frame's size has this one's demand, on any machine
+        char name[32];
+        std::snprintf(name, sizeof name, "frame-%04d.png", i + 1);
+        demo::writePng(*options.sequence / name, viewer.picture(options.samples));
+    }
+    std::printf("%d pictures in %s\n", frames, options.sequence->string().c_str());
 }
 
 void demonstrate(const Options& options) {
@@ -111,47 +156,32 @@ void demonstrate(const Options& options) {
     if (options.samples < 1 || options.samples > 8)
         throw std::invalid_argument("--samples is " + std::to_string(options.samples) +
                                     ", must be 1 to 8");
-
-    const renderer::Technique& technique = renderer::findTechnique(options.technique);
-    const renderer::ParameterValues parameters = parametersOf(options, technique);
-    const demo::ResolutionOption resolution =
-        demo::parseResolution(options.resolution, "--resolution");
-    const renderer::Scene scene = renderer::makeScene(options.scene);
-    const demo::LoadedSlope slope = demo::loadSlope(options.slope);
+    if (options.sequence && !options.headless)
+        throw std::invalid_argument("--sequence needs --headless");
+    const demo::ViewerState state = stateOf(options);
     if (options.slope.file)  // of the published default the stats say as much
-        for (const std::string& note : slope.notes)
+        for (const std::string& note : demo::loadSlope(options.slope.file, state.audience).notes)
             std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
 
     if (options.headless) {
         const renderer::HeadlessContext context;
-        renderer::Renderer frame(context.info(), scene, options.width, options.height);
-        const demo::Softness softness =
-            demo::chooseSoftness(frame, options.radiusM, options.radiusUv);
-        demo::ShadowRun run(frame, context.info(),
-                            {.technique = &technique,
-                             .parameters = parameters,
-                             .radiusUv = softness.radiusUv,
-                             .resolution = resolution,
-                             .slope = slope.slope});
-        const int settlingFrames = run.settle();
-        report(options, context.info(), frame, run, technique, parameters, slope, settlingFrames);
+        demo::Viewer viewer(context.info(), state, options.slope.file, options.width,
+                            options.height);
+        const int settlingFrames = viewer.settle();
+        if (options.sequence) return writeSequence(options, viewer);
+        report(options, context.info(), viewer, settlingFrames);
+        if (options.state) demo::writeViewerState(*options.state, viewer.state());
         return;
     }
     renderer::Window window("shadow_demo", options.width, options.height);
-    std::printf("%s", demo::keyHelp().c_str());
-    std::fflush(stdout);
-    demo::ViewState state{
-        .resolution = resolution, .radiusM = options.radiusM, .radiusUv = options.radiusUv};
-    state.technique = static_cast<std::size_t>(&technique - renderer::techniques().data());
-    while (renderer::builtInScenes()[state.scene].name != options.scene) ++state.scene;
-    showWindow(window, state, slope.slope, parameters, options.width, options.height,
-               options.frames.value_or(0), [&](renderer::Renderer& frame, demo::ShadowRun& run) {
-                   if (!options.stats && !options.screenshot) return;
-                   Options last = options;
-                   last.frames = kHeadlessFrames;
-                   report(last, window.info(), frame, run, *run.frameSettings().technique,
-                          *run.frameSettings().parameters, slope, 0);
-               });
+    demo::Viewer viewer(window.info(), state, options.slope.file, options.width, options.height);
+    showViewer(window, viewer, {.frames = options.frames.value_or(0), .pictureFolder = "."});
+    if (options.stats || options.screenshot) {
+        Options last = options;
+        last.frames = kHeadlessFrames;
+        report(last, window.info(), viewer, 0);
+    }
+    if (options.state) demo::writeViewerState(*options.state, viewer.state());
 }
 
 }  // namespace
@@ -164,25 +194,37 @@ int main(int argc, char** argv) {
         demo::keyHelp()};
     Options options;
     options.command.assign(argv, argv + argc);
-    app.add_option("--scene", options.scene, "built-in scene (see --list-scenes)")
-        ->capture_default_str();
-    app.add_option("--technique", options.technique, "shadow technique (see --list-techniques)")
-        ->capture_default_str();
+    app.add_option("--scene", options.scene, "built-in scene (see --list-scenes); default: yard");
+    app.add_option("--technique", options.technique,
+                   "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,
                    "NAME=NUMBER, a parameter of the technique; may be repeated");
-    app.add_option("--resolution", options.resolution, "map edge N in texels, or auto")
-        ->capture_default_str();
+    app.add_option("--resolution", options.resolution,
+                   "map edge N in texels, or auto; default: auto");
     auto* radius = app.add_option("--radius", options.radiusM,
                                   "softness: radius of the blur in m; default: the scene's");
     app.add_option("--radius-uv", options.radiusUv, "the same as a fraction of the map's extent")
         ->excludes(radius);
     demo::addSlopeOptions(app, options.slope);
+    app.add_option("--view", options.view,
+                   "picture, split, difference, demand, penumbra or texels; default: picture");
+    app.add_option("--compare", options.compareWith,
+                   "N of the other frame in split and difference; default: 4096");
+    app.add_option("--gain", options.gain, "of the difference, 1 to 64; default: 4");
+    app.add_option("--split", options.split, "place of the line, 0 to 1; default: 0.5");
+    app.add_option("--path", options.path, "what goes round: still, camera or sun");
+    app.add_option("--state", options.state,
+                   "JSON file: what the viewer shows, read at the start where it exists and "
+                   "written at the end; other options go before it");
     app.add_flag("--headless", options.headless, "no window: render, measure, write, end");
     app.add_option("--frames", options.frames,
-                   "headless: frames to time (default 10); window: frames after which to close");
+                   "headless: frames to time or to write (default 10); window: frames after which "
+                   "to close");
     app.add_option("--width", options.width, "viewport width in px")->capture_default_str();
     app.add_option("--height", options.height, "viewport height in px")->capture_default_str();
     app.add_option("--screenshot", options.screenshot, "PNG file to write at the end");
+    app.add_option("--sequence", options.sequence,
+                   "headless: folder for --frames pictures of --path once round");
     app.add_option("--samples", options.samples, "samples along a pixel's edge in the screenshot")
         ->capture_default_str();
     app.add_option("--stats", options.stats, "JSON file to write at the end");

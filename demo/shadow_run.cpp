@@ -27,10 +27,6 @@ rc::DemandHistogram histogramOf(
     return histogram;
 }
 
-renderer::DemandRule toRenderer(const rc::DemandRule& rule) {
-    return {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster};
-}
-
 }  // namespace
 
 ResolutionOption parseResolution(const std::string& text, const std::string& option) {
@@ -62,17 +58,33 @@ ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
                      const Settings& settings)
     : frame_(frame),
       info_(info),
-      settings_(settings),
       controller_({.slope = settings.slope, .driverMaxSize = info.maxResolution}),
       demand_(renderer::ShaderLibrary::embedded(), kDemandGlsl) {
-    frameSettings_.technique = settings.technique;
-    frameSettings_.parameters = settings.parameters;
-    frameSettings_.radiusUv = static_cast<float>(settings.radiusUv);
+    change(settings);
+}
+
+void ShadowRun::change(const Settings& settings) {
+    renderer::FrameSettings next = frameSettings_;
+    next.technique = settings.technique;
+    next.parameters = settings.parameters;
+    next.radiusUv = static_cast<float>(settings.radiusUv);
     if (settings.resolution) {
-        chosen_ = {.resolution = *settings.resolution, .reason = "fixed"};
-        frameSettings_.resolution = *settings.resolution;
+        next.resolution = *settings.resolution;
+        next.minRadiusUv = 0;
     }
-    frameSettings_.validate(info);
+    next.validate(info_);
+    rc::Settings sizing = controller_.settings();
+    sizing.slope = settings.slope;
+    if (const std::string problem = controller_.reconfigure(sizing); !problem.empty())
+        throw std::invalid_argument(problem);
+    settings_ = settings;
+    frameSettings_ = next;
+    if (settings.resolution) chosen_ = {.resolution = *settings.resolution, .reason = "fixed"};
+}
+
+renderer::DemandRule ShadowRun::demandRule() const {
+    const rc::DemandRule rule = rc::demandRule(controller_.settings());
+    return {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster};
 }
 
 void ShadowRun::step(renderer::PassClock* clock, bool cut) {
@@ -100,8 +112,7 @@ void ShadowRun::draw(renderer::PassClock* clock, View view) {
                    .artifactRatio = choice.artifactRatio};
     }
     frame_.render(frameSettings_, clock);
-    if (!settings_.resolution)
-        demand_.submit(frame_, toRenderer(rc::demandRule(controller_.settings())), clock);
+    if (!settings_.resolution) demand_.submit(frame_, demandRule(), clock);
 }
 
 int ShadowRun::settle() {

@@ -56,12 +56,18 @@ class ShadowRun {
     /// Throws std::invalid_argument for settings that renderer or controller refuse.
     ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info, const Settings& settings);
 
+    /// Other settings from the next frame on; an automatic size goes on from where it is. Throws as
+    /// the constructor does, and then nothing has changed.
+    void change(const Settings& settings);
+
     /// Draws the next frame. `cut`: the view has nothing to do with the one before, so an automatic
     /// size moves at once, downwards too.
     void step(renderer::PassClock* clock = nullptr, bool cut = false);
     /// Draws frames until the automatic size stays as it is; returns their number. At least one.
     int settle();
 
+    /// What the pixels are asked with.
+    renderer::DemandRule demandRule() const;
     const ChosenResolution& chosen() const { return chosen_; }
     const renderer::FrameSettings& frameSettings() const { return frameSettings_; }
 

@@ -192,9 +192,13 @@ std::span<const SceneEntry> builtInScenes() {
 }
 
 Scene makeScene(std::string_view name) {
+    return findScene(name).make();
+}
+
+const SceneEntry& findScene(std::string_view name) {
     std::string known;
     for (const SceneEntry& entry : builtInScenes()) {
-        if (entry.name == name) return entry.make();
+        if (entry.name == name) return entry;
         known += (known.empty() ? "" : ", ") + std::string(entry.name);
     }
     throw std::invalid_argument("scene \"" + std::string(name) +

@@ -72,7 +72,8 @@ struct SceneEntry {
 
 std::span<const SceneEntry> builtInScenes();
 
-/// Throws std::invalid_argument that lists the known names.
+/// Throws std::invalid_argument that lists the known names; so does makeScene().
+const SceneEntry& findScene(std::string_view name);
 Scene makeScene(std::string_view name);
 
 }  // namespace renderer

@@ -21,7 +21,6 @@ std::string lastGlfwError() {
 struct Window::Handle {
     GLFWwindow* window = nullptr;
     WindowInput input;
-    double lastX = 0, lastY = 0;
 
     static Handle& of(GLFWwindow* window) {
         return *static_cast<Handle*>(glfwGetWindowUserPointer(window));
@@ -33,16 +32,6 @@ struct Window::Handle {
         if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9))
             of(window).input.keys.push_back(static_cast<char>(key));
     }
-    static void onCursor(GLFWwindow* window, double x, double y) {
-        Handle& self = of(window);
-        if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
-            self.input.dragX += x - self.lastX;
-            self.input.dragY += y - self.lastY;
-        }
-        self.lastX = x;
-        self.lastY = y;
-    }
-    static void onScroll(GLFWwindow* window, double, double y) { of(window).input.scroll += y; }
 };
 
 Window::Window(const std::string& title, int widthPx, int heightPx)
@@ -60,9 +49,6 @@ Window::Window(const std::string& title, int widthPx, int heightPx)
     glfwMakeContextCurrent(window);
     glfwSetWindowUserPointer(window, handle_.get());
     glfwSetKeyCallback(window, Handle::onKey);
-    glfwSetCursorPosCallback(window, Handle::onCursor);
-    glfwSetScrollCallback(window, Handle::onScroll);
-    glfwGetCursorPos(window, &handle_->lastX, &handle_->lastY);
     info_ = prepareCurrentContext("window");
     glfwSwapInterval(info_.softwareRasteriser ? 0 : 1);
 }
@@ -87,7 +73,7 @@ void Window::setTitle(const std::string& title) {
     glfwSetWindowTitle(handle_->window, title.c_str());
 }
 
-void Window::present(unsigned framebuffer, int widthPx, int heightPx) {
+void Window::copyFrom(unsigned framebuffer, int widthPx, int heightPx) {
     int width = 0;
     int height = 0;
     glfwGetFramebufferSize(handle_->window, &width, &height);
@@ -97,7 +83,14 @@ void Window::present(unsigned framebuffer, int widthPx, int heightPx) {
     glViewport(0, 0, width, height);
     glBlitFramebuffer(0, 0, widthPx, heightPx, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
                       width == widthPx && height == heightPx ? GL_NEAREST : GL_LINEAR);
+}
+
+void Window::swap() {
     glfwSwapBuffers(handle_->window);
+}
+
+GLFWwindow* Window::glfw() const {
+    return handle_->window;
 }
 
 }  // namespace renderer

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A window with an OpenGL 4.5 core context (GLFW), and what the user did in it since the last look.
+// A window with an OpenGL 4.5 core context (GLFW), and which keys were pressed in it since the last
+// look.
 //
 //   renderer::Window window("shadow_demo", 1280, 720);
-//   while (!window.closeWanted()) { const auto input = window.poll(); ...;
-//   window.present(framebuffer, w, h); }
+//   while (!window.closeWanted()) {
+//       const auto input = window.poll();  ...
+//       window.copyFrom(framebuffer, w, h);  ... an interface over it ...  window.swap();
+//   }
 #pragma once
 
 #include <memory>
@@ -12,12 +15,12 @@
 
 #include "renderer/gl_context.h"
 
+struct GLFWwindow;
+
 namespace renderer {
 
 struct WindowInput {
     std::vector<char> keys;         ///< letters and digits pressed, upper case; '\x1b' is Esc
-    double dragX = 0, dragY = 0;    ///< px moved with the left button held; y down
-    double scroll = 0;              ///< wheel clicks, up positive
     int widthPx = 0, heightPx = 0;  ///< of the framebuffer now; 0 while minimised
 };
 
@@ -33,8 +36,11 @@ class Window {
     bool closeWanted() const;
     WindowInput poll();
     void setTitle(const std::string& title);
-    /// Copies a framebuffer object of that size into the window and swaps.
-    void present(unsigned framebuffer, int widthPx, int heightPx);
+    /// Copies a framebuffer object of that size into the window, scaled where sizes differ.
+    void copyFrom(unsigned framebuffer, int widthPx, int heightPx);
+    void swap();
+    /// For an interface library that listens to it.
+    GLFWwindow* glfw() const;
 
   private:
     struct Handle;

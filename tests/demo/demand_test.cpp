@@ -114,7 +114,7 @@ Counters onTheCpu(renderer::Renderer& frame, bool hasKernel, const rc::DemandRul
             };
             const auto receiver = renderer::f32::shadowReceiver(three(positions), three(planes),
                                                                 frame.viewConstants(), shadow);
-            const bool inPenumbra = visibility.at(x, y) > 0 && visibility.at(x, y) < 1;
+            const bool inPenumbra = renderer::f32::inPenumbra(visibility.at(x, y));
             const bool wide = hasKernel && shadow.kernel.x >= receiver.footprintUv;
             const bool onMap = receiver.uv.x >= 0 && receiver.uv.y >= 0 && receiver.uv.x <= 1 &&
                                receiver.uv.y <= 1;

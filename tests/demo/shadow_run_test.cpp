@@ -9,7 +9,6 @@
 #include <random>
 #include <vector>
 
-#include "demo/demo_window.h"
 #include "demo/loaded_slope.h"
 #include "renderer/scene.h"
 
@@ -168,29 +167,14 @@ TEST(ShadowRun, PictureIsAntialiasedAndLeavesTheFrameAsItWas) {
     EXPECT_EQ(frame.readVisibility().values, before);
 }
 
-TEST(WindowKeys, ChangeWhatTheySay) {
-    demo::ViewState state;
-    EXPECT_TRUE(demo::applyKey('4', state));
-    EXPECT_EQ(state.resolution, 1024);
-    EXPECT_TRUE(demo::applyKey('R', state));
-    EXPECT_FALSE(state.resolution);
-    EXPECT_TRUE(demo::applyKey('R', state));
-    EXPECT_TRUE(state.resolution);
-    for (std::size_t i = 0; i < renderer::techniques().size(); ++i) demo::applyKey('T', state);
-    EXPECT_EQ(state.technique, 0U) << "once round";
-    demo::applyKey('S', state);
-    EXPECT_EQ(state.scene, 1U);
-    EXPECT_FALSE(demo::applyKey('Q', state));
-}
-
 TEST(LoadedSlope, IsThePublishedOneForTheAudienceAskedFor) {
-    const demo::LoadedSlope measured = demo::loadSlope({});
+    const demo::LoadedSlope measured = demo::loadSlope(std::nullopt);
     EXPECT_EQ(measured.slope.c, 3.47);
     EXPECT_THAT(measured.notes, testing::ElementsAre(HasSubstr("other encoding")));
-    const demo::LoadedSlope hidden = demo::loadSlope({.file = {}, .audience = {.detection = 0.10}});
+    const demo::LoadedSlope hidden = demo::loadSlope(std::nullopt, {.detection = 0.10});
     EXPECT_NEAR(hidden.slope.c / 3.47, 1.92, 0.005) << "(ln(1 - .6465) / ln(.9))^(1 / 3.5)";
     EXPECT_THAT(hidden.text, HasSubstr("at most 10 % of looks"));
-    const demo::LoadedSlope many = demo::loadSlope({.file = {}, .audience = {.people = 0.9}});
+    const demo::LoadedSlope many = demo::loadSlope(std::nullopt, {.people = 0.9});
     EXPECT_THAT(many.notes, testing::Contains(HasSubstr("how observers differ")));
 }
 

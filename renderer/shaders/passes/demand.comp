@@ -27,7 +27,7 @@ int counterOf(ivec2 pixel) {
     float visibility = texelFetch(visibilities, pixel, 0).x;
     ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
     bool wide = hasKernel != 0u && max(shadow.kernel.x, shadow.kernel.y) >= receiver.footprintUv;
-    if (wide && (visibility <= 0.0 || visibility >= 1.0)) return -1;
+    if (wide && !inPenumbra(visibility)) return -1;
     bool onMap = all(greaterThanEqual(receiver.uv, vec2(0.0))) && all(lessThanEqual(receiver.uv, vec2(1.0)));
     if (!receiver.facesLight || !onMap) return -1;
     StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);

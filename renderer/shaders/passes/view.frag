@@ -51,9 +51,9 @@ void main() {
         outColour.rgb = signedColour(background(own), splitAndGain.y * difference);
         return;
     }
-    bool inPenumbra = visibility > 0.0 && visibility < 1.0;
+    if (chosen == VIEW_PENUMBRA || chosen == VIEW_DEMAND) outColour.rgb = background(own);
     if (chosen == VIEW_PENUMBRA) {
-        outColour.rgb = inPenumbra ? scaleColour(visibility) : background(own);
+        if (inPenumbra(visibility)) outColour.rgb = scaleColour(visibility);
         return;
     }
     vec4 position = texelFetch(positions, pixel, 0);
@@ -69,8 +69,7 @@ void main() {
         if (border && receiver.facesLight) outColour.rgb = mix(own, vec3(1.0, 0.85, 0.2), 0.7 * fade);
         return;
     }
-    outColour.rgb = background(own);  // VIEW_DEMAND
-    if (!inPenumbra || !receiver.facesLight) return;
+    if (!inPenumbra(visibility) || !receiver.facesLight) return;  // VIEW_DEMAND
     StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);
     float texels = stairwellDemand(asked, shadow.kernel.x, receiver.footprintUv, 1.0, 0.0);
     float place = (log2(max(texels, 1.0)) - demandRange.x) / (demandRange.y - demandRange.x);

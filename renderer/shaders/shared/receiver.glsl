@@ -78,6 +78,14 @@ SHARED_FUNCTION ShadowReceiver shadowReceiver(real3 eyeRelative, real3 planeNorm
     return receiver;
 }
 
+// Half a code value of a display: what lies nearer to light or shadow is one of them to any eye. Sums of weights leave
+// 1e-7 of light in a full shadow.
+const real kVisibleShare = real(1.0) / real(510.0);
+
+SHARED_FUNCTION bool inPenumbra(real visibility) {
+    return visibility > kVisibleShare && visibility < real(1.0) - kVisibleShare;
+}
+
 // The kernel's radius at this receiver, as a fraction of the map's extent, in [0,1]. Where the map is smaller than
 // the softness asks for, the controller hands back a least radius (METHODS section 7); it holds where a texel is
 // larger than two pixels, not at all where it is smaller than one, and fades in between (the fade is chosen by eye:

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "demo/viewer.h"
+
+#include <stdexcept>
+
+#include "demo/demand_glsl.h"
+
+namespace demo {
+namespace {
+
+const ViewerState& checked(const ViewerState& state) {
+    if (const std::string problem = validate(state); !problem.empty())
+        throw std::invalid_argument(problem);
+    return state;
+}
+
+}  // namespace
+
+Viewer::Viewer(const renderer::GlInfo& info, const ViewerState& state,
+               std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx)
+    : info_(info),
+      slopeFile_(std::move(slopeFile)),
+      state_(checked(state)),
+      frame_(info, renderer::makeScene(state.scene), widthPx, heightPx),
+      view_(renderer::ShaderLibrary::embedded(), kDemandGlsl) {
+    sceneCamera_ = frame_.scene().camera;
+    sceneSun_ = frame_.scene().sun;
+    apply(state_);
+    run_ = std::make_unique<ShadowRun>(frame_, info_, settingsOf(state_, state_.resolution));
+}
+
+ShadowRun::Settings Viewer::settingsOf(const ViewerState& state,
+                                       ResolutionOption resolution) const {
+    return {.technique = &renderer::findTechnique(state.technique),
+            .parameters = parametersOf(state),
+            .radiusUv = softness_.radiusUv,
+            .resolution = resolution,
+            .slope = slope_.slope};
+}
+
+void Viewer::show(const ViewerState& state) {
+    if (state == state_) return;
+    checked(state);
+    try {
+        apply(state);
+    } catch (const std::invalid_argument&) {
+        apply(state_);
+        throw;
+    }
+    state_ = state;
+}
+
+void Viewer::apply(const ViewerState& state) {
+    if (slopeFor_ != state.audience) {
+        slope_ = loadSlope(slopeFile_, state.audience);
+        slopeFor_ = state.audience;
+    }
+    if (state.scene != frame_.scene().name) {
+        renderer::Scene scene = renderer::makeScene(state.scene);
+        sceneCamera_ = scene.camera;
+        sceneSun_ = scene.sun;
+        frame_.setScene(std::move(scene));
+        cut_ = true;
+    }
+    frame_.setCamera(cameraOf(state, sceneCamera_));
+    frame_.setSun(sunOf(state, sceneSun_));
+    softness_ = chooseSoftness(frame_, state.radiusM, state.radiusUv);
+    if (run_) run_->change(settingsOf(state, state.resolution));
+}
+
+void Viewer::resize(int widthPx, int heightPx) {
+    frame_.resize(widthPx, heightPx);
+}
+
+void Viewer::step(renderer::PassClock* clock) {
+    run_->step(clock, cut_);
+    cut_ = false;
+    drawView();
+}
+
+int Viewer::settle() {
+    const int frames = run_->settle();
+    cut_ = false;
+    drawView();
+    return frames;
+}
+
+void Viewer::drawOther() {
+    if (!otherFrame_)
+        otherFrame_ = std::make_unique<renderer::Renderer>(info_, renderer::makeScene(state_.scene),
+                                                           frame_.widthPx(), frame_.heightPx());
+    const bool sameSize =
+        otherFrame_->widthPx() == frame_.widthPx() && otherFrame_->heightPx() == frame_.heightPx();
+    if (otherShows_ == state_ && sameSize) return;  // a still view: it is often the slower frame
+    otherFrame_->resize(frame_.widthPx(), frame_.heightPx());
+    if (otherFrame_->scene().name != state_.scene)
+        otherFrame_->setScene(renderer::makeScene(state_.scene));
+    otherFrame_->setCamera(frame_.scene().camera);
+    otherFrame_->setSun(frame_.scene().sun);
+    const ShadowRun::Settings settings = settingsOf(state_, state_.compareWith);
+    if (!otherRun_) otherRun_ = std::make_unique<ShadowRun>(*otherFrame_, info_, settings);
+    otherRun_->change(settings);
+    otherRun_->step();
+    otherShows_ = state_;
+}
+
+void Viewer::drawView() {
+    if (state_.view == renderer::View::picture) return;
+    if (compares(state_.view)) drawOther();
+    view_.draw(frame_, compares(state_.view) ? otherFrame_.get() : nullptr,
+               {.view = state_.view,
+                .splitAt = state_.splitAt,
+                .gain = state_.gain,
+                .rule = run_->demandRule()});
+}
+
+unsigned Viewer::framebuffer() const {
+    return state_.view == renderer::View::picture ? frame_.litFramebuffer() : view_.framebuffer();
+}
+
+renderer::ByteImage Viewer::picture(int samplesPerPixelEdge) {
+    return state_.view == renderer::View::picture ? run_->picture(samplesPerPixelEdge)
+                                                  : view_.read();
+}
+
+}  // namespace demo

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Draws what a ViewerState says, with or without a window: the frame at the size that the state
+// asks for, a second one where the view compares, and the view over both.
+//
+//   demo::Viewer viewer(info, state, slopeFile, 1280, 720);
+//   viewer.settle();  or, every frame:  viewer.show(state); viewer.step();
+//   window.present(viewer.framebuffer(), ...);  or  writePng(file, viewer.picture(2));
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "demo/viewer_state.h"
+
+namespace demo {
+
+class Viewer {
+  public:
+    /// Throws std::invalid_argument for a state that is not usable, what loadSlope() throws, and
+    /// what Renderer throws.
+    Viewer(const renderer::GlInfo& info, const ViewerState& state,
+           std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx);
+
+    /// From the next frame on. Throws std::invalid_argument, and then the state stays as it was.
+    void show(const ViewerState& state);
+    void resize(int widthPx, int heightPx);
+
+    /// The next frame. The clock sees the passes of the frame alone, not those of the one that it
+    /// is compared with.
+    void step(renderer::PassClock* clock = nullptr);
+    /// Frames until the automatic size stays; returns their number.
+    int settle();
+
+    unsigned framebuffer() const;
+    /// As the view shows it; a plain picture with samples x samples per pixel.
+    renderer::ByteImage picture(int samplesPerPixelEdge);
+
+    const ViewerState& state() const { return state_; }
+    const LoadedSlope& slope() const { return slope_; }
+    const Softness& softness() const { return softness_; }
+    const renderer::OrbitCamera& sceneCamera() const { return sceneCamera_; }
+    const renderer::Renderer& frame() const { return frame_; }
+    const ShadowRun& run() const { return *run_; }
+    ShadowRun& run() { return *run_; }
+
+  private:
+    ShadowRun::Settings settingsOf(const ViewerState& state, ResolutionOption resolution) const;
+    void apply(const ViewerState& state);
+    void drawOther();
+    void drawView();
+
+    renderer::GlInfo info_;
+    std::optional<std::filesystem::path> slopeFile_;
+    ViewerState state_;
+    LoadedSlope slope_;
+    std::optional<resolution_controller::Audience> slopeFor_;
+    Softness softness_;
+    renderer::OrbitCamera sceneCamera_;
+    renderer::Sun sceneSun_;
+    renderer::Renderer frame_;
+    std::unique_ptr<ShadowRun> run_;
+    // The frame that the view compares with, made when first needed.
+    std::unique_ptr<renderer::Renderer> otherFrame_;
+    std::unique_ptr<ShadowRun> otherRun_;
+    std::optional<ViewerState> otherShows_;
+    renderer::ViewPass view_;
+    bool cut_ = true;  // the next frame shows something else than the last one
+};
+
+}  // namespace demo

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "demo/viewer_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace demo {
+namespace {
+
+constexpr float kPanelWidthEm = 24;  // in text heights
+
+std::string number(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+/// A row of a table by its name.
+template <class Rows>
+void chooseName(const char* label, const Rows& rows, std::string& chosen, const auto& titleOf) {
+    if (!ImGui::BeginCombo(label, chosen.c_str())) return;
+    for (const auto& row : rows) {
+        const std::string name(row.name);
+        if (ImGui::Selectable(name.c_str(), name == chosen)) chosen = name;
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(titleOf(row)).c_str());
+    }
+    ImGui::EndCombo();
+}
+
+void drawTechnique(ViewerState& state) {
+    const std::string scene = state.scene;
+    chooseName("Scene", renderer::builtInScenes(), state.scene,
+               [](const auto& row) { return row.description; });
+    if (state.scene != scene) {
+        state.cameraYawDeg = state.cameraPitchDeg = state.cameraDistanceM = {};
+        state.sunAzimuthDeg = state.sunElevationDeg = {};
+    }
+    chooseName("Technique", renderer::techniques(), state.technique,
+               [](const auto& row) { return row.title; });
+    const renderer::Technique& technique = renderer::findTechnique(state.technique);
+    renderer::ParameterValues values = parametersOf(state);
+    bool changed = false;
+    for (std::size_t i = 0; i < technique.parameters.size(); ++i) {
+        const renderer::TechniqueParameter& parameter = technique.parameters[i];
+        changed |=
+            ImGui::SliderFloat(std::string(parameter.name).c_str(), &values[i], parameter.low,
+                               parameter.high, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(parameter.meaning).c_str());
+    }
+    if (changed) state.parameters[state.technique] = values;
+}
+
+void chooseSize(const char* label, int& size) {
+    if (!ImGui::BeginCombo(label, std::to_string(size).c_str())) return;
+    for (int n = 64; n <= 8192; n *= 2)
+        if (ImGui::Selectable(std::to_string(n).c_str(), n == size)) size = n;
+    ImGui::EndCombo();
+}
+
+void drawSize(const Viewer& viewer, const ChosenResolution& chosen, ViewerState& state) {
+    bool automatic = !state.resolution;
+    if (ImGui::Checkbox("automatic size", &automatic))
+        state.resolution = automatic ? ResolutionOption() : ResolutionOption(chosen.resolution);
+    if (state.resolution) chooseSize("Size", *state.resolution);
+    ImGui::Text("N = %d: %s", chosen.resolution, chosen.reason.c_str());
+    if (chosen.automatic)
+        ImGui::TextDisabled("asked for %d; artifact ratio %.2f; %.1f %% ask for more", chosen.need,
+                            chosen.artifactRatio, 100 * chosen.shareAbove);
+
+    auto softness = static_cast<float>(viewer.softness().radiusM);
+    const auto extent = static_cast<float>(viewer.softness().radiusM / viewer.softness().radiusUv);
+    if (ImGui::SliderFloat("Blur radius (m)", &softness, 0.002F,
+                           std::isfinite(extent) ? 0.1F * extent : 1, "%.3f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+        state.radiusM = static_cast<double>(softness);
+        state.radiusUv.reset();
+    }
+    if ((state.radiusM || state.radiusUv) && ImGui::SmallButton("the scene's own blur")) {
+        state.radiusM.reset();
+        state.radiusUv.reset();
+    }
+}
+
+void drawAudience(const Viewer& viewer, ViewerState& state) {
+    auto percent =
+        static_cast<float>(100 * (state.audience.detection > 0 ? state.audience.detection
+                                                               : viewer.slope().slope.criterion));
+    if (ImGui::SliderFloat("seen in % of looks", &percent, 1, 90, "%.0f",
+                           ImGuiSliderFlags_AlwaysClamp))
+        state.audience.detection = static_cast<double>(percent) / 100;
+    auto people = static_cast<float>(100 * state.audience.people);
+    if (ImGui::SliderFloat("by % of people or fewer", &people, 50, 99, "%.0f",
+                           ImGuiSliderFlags_AlwaysClamp))
+        state.audience.people = static_cast<double>(people) / 100;
+    if (state.audience != resolution_controller::kAsMeasured &&
+        ImGui::SmallButton("as the study measured"))
+        state.audience = resolution_controller::kAsMeasured;
+    ImGui::TextWrapped("%s", viewer.slope().text.c_str());
+    for (const std::string& note : viewer.slope().notes)
+        ImGui::TextWrapped("Note: %s.", note.c_str());
+}
+
+void drawView(ViewerState& state) {
+    if (ImGui::BeginCombo("View", std::string(toText(state.view)).c_str())) {
+        for (const renderer::View view : renderer::kAllViews)
+            if (ImGui::Selectable(std::string(toText(view)).c_str(), view == state.view))
+                state.view = view;
+        ImGui::EndCombo();
+    }
+    using renderer::View;
+    if (compares(state.view)) chooseSize("against", state.compareWith);
+    if (state.view == View::split)
+        ImGui::SliderFloat("line", &state.splitAt, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    if (state.view == View::difference) {
+        ImGui::SliderFloat("gain", &state.gain, 1, 64, "%.0f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+        ImGui::TextWrapped(
+            "orange: lighter than with %d, blue: darker; in full at a difference of "
+            "%.3f in visibility",
+            state.compareWith, static_cast<double>(1 / state.gain));
+    }
+    if (state.view == View::demand)
+        ImGui::TextWrapped(
+            "violet: %.0f texels or fewer asked for, green: %.0f, yellow: %.0f or "
+            "more",
+            static_cast<double>(renderer::ViewPass::kLeastDemand),
+            std::sqrt(static_cast<double>(renderer::ViewPass::kLeastDemand *
+                                          renderer::ViewPass::kMostDemand)),
+            static_cast<double>(renderer::ViewPass::kMostDemand));
+    if (state.view == View::penumbra)
+        ImGui::TextWrapped("visibility in penumbra: violet 0, green .5, yellow 1");
+}
+
+void drawLight(const Viewer& viewer, ViewerState& state) {
+    float azimuth = viewer.frame().scene().sun.azimuthDeg;
+    float elevation = viewer.frame().scene().sun.elevationDeg;
+    if (ImGui::SliderFloat("sun around", &azimuth, -180, 180, "%.0f deg"))
+        state.sunAzimuthDeg = azimuth;
+    if (ImGui::SliderFloat("sun height", &elevation, 5, 88, "%.0f deg",
+                           ImGuiSliderFlags_AlwaysClamp))
+        state.sunElevationDeg = elevation;
+    int path = static_cast<int>(state.path);
+    ImGui::Combo("play", &path, "still\0camera round\0sun round\0");
+    state.path = static_cast<Path>(path);
+}
+
+void drawPlots(const FrameHistory& history, ViewerState& state) {
+    if (history.entries.empty()) return;
+    std::vector<float> values(history.entries.size());
+    const float width = ImGui::GetContentRegionAvail().x;
+    const auto plot = [&](const char* label, const char* format, const auto& valueOf) {
+        std::transform(history.entries.begin(), history.entries.end(), values.begin(), valueOf);
+        const float most = *std::max_element(values.begin(), values.end());
+        ImGui::Text("%s %s", label, number(format, static_cast<double>(values.back())).c_str());
+        ImGui::PlotLines((std::string("##") + label).c_str(), values.data(),
+                         static_cast<int>(values.size()), 0, nullptr, 0, 1.25F * most,
+                         {width, 2.2F * ImGui::GetTextLineHeight()});
+    };
+    plot("map size", "%.0f", [](const auto& entry) { return entry.resolution; });
+    plot("frame", "%.1f ms", [](const auto& entry) { return entry.frameMs; });
+    plot("artifact ratio", "%.2f", [](const auto& entry) { return entry.artifactRatio; });
+    ImGui::Checkbox("time every pass", &state.timePasses);
+    if (!state.timePasses) return;
+    const renderer::PassTimesMs& last = history.entries.back().passesMs;
+    for (const renderer::Pass pass : renderer::kAllPasses)
+        ImGui::Text("%-10s %7.2f ms", std::string(toText(pass)).c_str(),
+                    last[static_cast<std::size_t>(pass)]);
+}
+
+}  // namespace
+
+PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
+                       const std::string& message, ViewerState& state) {
+    PanelRequest request;
+    const float em = ImGui::GetTextLineHeight();
+    ImGui::SetNextWindowPos({em, em}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(
+        {kPanelWidthEm * em, 0}, {kPanelWidthEm * em, ImGui::GetIO().DisplaySize.y - 2 * em});
+    ImGui::Begin("shadow_demo", &state.panel, ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushItemWidth(11 * em);
+    drawTechnique(state);
+    ImGui::Separator();
+    drawSize(viewer, viewer.run().chosen(), state);
+    ImGui::Separator();
+    drawView(state);
+    if (ImGui::CollapsingHeader("For whom")) drawAudience(viewer, state);
+    if (ImGui::CollapsingHeader("Light and paths")) drawLight(viewer, state);
+    if (ImGui::CollapsingHeader("Plots", ImGuiTreeNodeFlags_DefaultOpen)) drawPlots(history, state);
+    if (ImGui::CollapsingHeader("Keys")) ImGui::TextUnformatted(keyHelp().c_str());
+    if (ImGui::Button("Save a picture")) request.screenshot = true;
+    if (!message.empty()) ImGui::TextWrapped("%s", message.c_str());
+    ImGui::PopItemWidth();
+    ImGui::End();
+    return request;
+}
+
+}  // namespace demo

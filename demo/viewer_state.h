@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// What the viewer shows, as one plain struct: command line, panel, keys and state file all change
+// this, and Viewer draws it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "demo/loaded_slope.h"
+#include "demo/shadow_run.h"
+#include "renderer/view_pass.h"
+
+namespace demo {
+
+/// A way that camera or sun go once round while the viewer plays.
+enum class Path { still, camera, sun };
+
+struct ViewerState {
+    std::string scene = "yard";
+    std::string technique = "pcf_disc";
+    /// Of techniques whose parameters are not the defaults.
+    std::map<std::string, renderer::ParameterValues, std::less<>> parameters = {};
+    ResolutionOption resolution = {};               ///< absent: automatic
+    int compareWith = 4096;                         ///< N of the other frame, where a view has one
+    std::optional<double> radiusM = {};             ///< absent: the scene's own softness
+    std::optional<double> radiusUv = {};            ///< instead of radiusM
+    resolution_controller::Audience audience = {};  ///< for whom the automatic size is chosen
+
+    renderer::View view = renderer::View::picture;
+    float splitAt = 0.5F;  ///< [0, 1]
+    float gain = 4;        ///< of the difference, [1, 64]
+
+    /// Absent: the scene's own.
+    std::optional<float> cameraYawDeg = {}, cameraPitchDeg = {}, cameraDistanceM = {};
+    std::optional<float> sunAzimuthDeg = {}, sunElevationDeg = {};
+    Path path = Path::still;
+    double pathPlace = 0;  ///< [0, 1): how far round
+
+    bool panel = true;
+    bool timePasses = false;  ///< every pass by itself: slower frames on a software rasteriser
+
+    bool operator==(const ViewerState&) const = default;
+};
+
+/// Empty when usable; else a sentence that names field, value and rule. Scene and technique are
+/// looked up in their tables.
+std::string validate(const ViewerState& state);
+
+/// Throws std::runtime_error that names file, field, value and rule.
+ViewerState readViewerState(const std::filesystem::path& file);
+void writeViewerState(const std::filesystem::path& file, const ViewerState& state);
+
+renderer::ParameterValues parametersOf(const ViewerState& state);
+/// Camera and sun as the state has them, path included. Pitch and elevation stay over the horizon.
+/// `own` is what the scene itself has.
+renderer::OrbitCamera cameraOf(const ViewerState& state, const renderer::OrbitCamera& own);
+renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own);
+
+/// A word of the command line. Throws std::invalid_argument that names `option` and lists the
+/// words.
+renderer::View parseView(const std::string& word, const std::string& option);
+Path parsePath(const std::string& word, const std::string& option);
+
+/// One line per key, for --help and the panel.
+std::string keyHelp();
+/// What a key does to the state. Returns false for a key that means nothing.
+bool applyKey(char key, ViewerState& state);
+
+}  // namespace demo

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "demo/viewer_window.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "demo/picture.h"
+#include "demo/viewer_panel.h"
+
+namespace demo {
+namespace {
+
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr float kTextPx = 15;
+constexpr float kDegreesPerPx = 0.3F;
+constexpr float kGrabPx = 12;          // how near to the line of the split view a drag begins
+constexpr double kSecondsAround = 24;  // a path, once round
+
+/// Dear ImGui for one window.
+class Interface {
+  public:
+    explicit Interface(const renderer::Window& window) {
+        IMGUI_CHECKVERSION();
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr;  // the state file holds what is to be kept
+        ImGui::StyleColorsDark();
+        ImGui::GetStyle().FrameRounding = ImGui::GetStyle().WindowRounding = 4;
+        ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.88F;
+        if (std::filesystem::exists(kFont))
+            ImGui::GetIO().Fonts->AddFontFromFileTTF(kFont, kTextPx);
+        ImGui_ImplGlfw_InitForOpenGL(window.glfw(), true);
+        ImGui_ImplOpenGL3_Init("#version 450 core");
+    }
+    ~Interface() {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+
+    static void begin() {
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui_ImplGlfw_NewFrame();
+        ImGui::NewFrame();
+    }
+    static void end() {
+        ImGui::Render();
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    }
+};
+
+/// What the mouse does to the picture: turns, zooms, or moves the line of the split view.
+class Mouse {
+  public:
+    void apply(const Viewer& viewer, ViewerState& state) {
+        const ImGuiIO& io = ImGui::GetIO();
+        const bool overPicture = !io.WantCaptureMouse;
+        if (overPicture && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+            held_ = nearLine(state) ? Held::line : Held::scene;
+        if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) held_ = Held::nothing;
+        if (held_ == Held::line)
+            state.splitAt = std::clamp(io.MousePos.x / io.DisplaySize.x, 0.0F, 1.0F);
+        const renderer::OrbitCamera& camera = viewer.frame().scene().camera;
+        const bool turned = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+        if (held_ == Held::scene && turned) {
+            // The path's share stays with the path.
+            state.cameraYawDeg =
+                std::remainder(state.cameraYawDeg.value_or(viewer.sceneCamera().yawDeg) -
+                                   kDegreesPerPx * io.MouseDelta.x,
+                               360.0F);
+            state.cameraPitchDeg =
+                std::clamp(camera.pitchDeg + kDegreesPerPx * io.MouseDelta.y, 2.0F, 88.0F);
+        }
+        if (overPicture && io.MouseWheel != 0)
+            state.cameraDistanceM =
+                std::clamp(camera.distanceM * std::pow(0.9F, io.MouseWheel), 1.5F, 40.0F);
+        if (nearLine(state) && overPicture) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    }
+
+  private:
+    enum class Held { nothing, scene, line };
+
+    static bool nearLine(const ViewerState& state) {
+        const ImGuiIO& io = ImGui::GetIO();
+        return state.view == renderer::View::split &&
+               std::abs(io.MousePos.x - state.splitAt * io.DisplaySize.x) < kGrabPx;
+    }
+
+    Held held_ = Held::nothing;
+};
+
+/// The first name that is free: nothing is overwritten.
+std::filesystem::path freeName(const std::filesystem::path& folder) {
+    for (int i = 1;; ++i) {
+        char name[32];
+        std::snprintf(name, sizeof name, "shadow_demo-%03d.png", i);
+        if (!std::filesystem::exists(folder / name)) return folder / name;
+    }
+}
+
+std::string savePicture(Viewer& viewer, const std::filesystem::path& folder) {
+    const std::filesystem::path file = freeName(folder);
+    try {
+        writePng(file, viewer.picture(2));
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "saved as " + file.string();
+}
+
+}  // namespace
+
+void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOptions& options) {
+    const Interface interface(window);
+    renderer::PassClock clock(window.info());
+    FrameHistory history;
+    Mouse mouse;
+    std::string message;
+    double smoothMs = 0;
+    auto last = std::chrono::steady_clock::now();
+    for (int shown = 0; !window.closeWanted() && (options.frames == 0 || shown < options.frames);
+         ++shown) {
+        const renderer::WindowInput input = window.poll();
+        ViewerState state = viewer.state();
+        for (const char key : input.keys) {
+            if (key == '\x1b') return;
+            if (!ImGui::GetIO().WantTextInput) applyKey(key, state);
+        }
+        if (input.widthPx > 0 && input.heightPx > 0) viewer.resize(input.widthPx, input.heightPx);
+
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last).count();
+        last = now;
+        if (state.path != Path::still)
+            state.pathPlace = std::fmod(state.pathPlace + seconds / kSecondsAround, 1.0);
+
+        Interface::begin();
+        mouse.apply(viewer, state);
+        PanelRequest request;
+        if (state.panel) request = drawPanel(viewer, history, message, state);
+        try {
+            viewer.show(state);
+        } catch (const std::invalid_argument& error) {
+            message = error.what();  // the picture stays as it was
+        }
+        viewer.step(state.timePasses ? &clock : nullptr);
+        if (request.screenshot) message = savePicture(viewer, options.pictureFolder);
+        window.copyFrom(viewer.framebuffer(), viewer.frame().widthPx(), viewer.frame().heightPx());
+        Interface::end();
+        window.swap();
+
+        const double ms = 1000 * seconds;
+        if (shown > 0) smoothMs = smoothMs == 0 ? ms : 0.9 * smoothMs + 0.1 * ms;
+        const ChosenResolution& chosen = viewer.run().chosen();
+        history.add({.frameMs = static_cast<float>(smoothMs),
+                     .resolution = static_cast<float>(chosen.resolution),
+                     .artifactRatio = static_cast<float>(chosen.artifactRatio),
+                     .passesMs = state.timePasses ? clock.collectMs() : renderer::PassTimesMs{}});
+    }
+}
+
+}  // namespace demo

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The viewer in its window: picture, panel, keys, the mouse that turns the scene.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "demo/viewer.h"
+#include "renderer/window.h"
+
+namespace demo {
+
+struct ViewerWindowOptions {
+    int frames = 0;                       ///< after which to close; 0: when the user does
+    std::filesystem::path pictureFolder;  ///< where "Save a picture" writes
+};
+
+/// Shows the window until it is closed or Esc is pressed.
+void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOptions& options);
+
+}  // namespace demo

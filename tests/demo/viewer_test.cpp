@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// The viewer without its window: what a state shows, the state file, the keys.
+#include "demo/viewer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/temporary_folder.h"
+
+namespace {
+
+using demo::Path;
+using demo::ViewerState;
+using renderer::View;
+using testing::HasSubstr;
+
+const renderer::GlInfo& gl() {
+    static const renderer::HeadlessContext context;
+    return context.info();
+}
+
+template <class Call>
+std::string messageOf(const Call& call) {
+    try {
+        call();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+ViewerState smallState(View view) {
+    ViewerState state;
+    state.view = view;
+    state.resolution = 64;
+    state.compareWith = 1024;
+    return state;
+}
+
+renderer::ByteImage imageOf(const ViewerState& state) {
+    demo::Viewer viewer(gl(), state, std::nullopt, 96, 54);
+    viewer.settle();
+    return viewer.picture(1);
+}
+
+TEST(Viewer, SplitShowsOneFrameOnEachSideOfTheLine) {
+    const renderer::ByteImage left = imageOf(smallState(View::picture));
+    ViewerState state = smallState(View::picture);
+    state.resolution = state.compareWith;
+    const renderer::ByteImage right = imageOf(state);
+    state = smallState(View::split);
+    state.splitAt = 0.25F;
+    const renderer::ByteImage split = imageOf(state);
+    int differing = 0;
+    for (int y = 0; y < split.height; ++y)
+        for (int x = 0; x < split.width; ++x) {
+            if (std::abs(x + 0.5 - 24) < 1) continue;  // the line
+            for (int channel = 0; channel < 3; ++channel) {
+                const auto expected = (x < 24 ? left : right).at(x, y, channel);
+                ASSERT_EQ(split.at(x, y, channel), expected) << x << ' ' << y;
+                differing += left.at(x, y, channel) != right.at(x, y, channel) ? 1 : 0;
+            }
+        }
+    EXPECT_GT(differing, 100) << "or the test could not fail";
+}
+
+bool coloured(const renderer::ByteImage& image, int x, int y) {
+    return image.at(x, y, 0) != image.at(x, y, 1) || image.at(x, y, 1) != image.at(x, y, 2);
+}
+
+TEST(Viewer, DifferenceIsGreyWhereTheFramesAgree) {
+    ViewerState state = smallState(View::difference);
+    state.compareWith = 64;
+    const renderer::ByteImage same = imageOf(state);
+    state.compareWith = 1024;
+    const renderer::ByteImage other = imageOf(state);
+    int differing = 0;
+    for (int y = 0; y < same.height; ++y)
+        for (int x = 0; x < same.width; ++x) {
+            ASSERT_FALSE(coloured(same, x, y)) << x << ' ' << y;
+            differing += coloured(other, x, y) ? 1 : 0;
+        }
+    EXPECT_GT(differing, 50);
+}
+
+// Both views paint what the controller counts, so they paint the same pixels but for the surfaces
+// that face away from the light.
+TEST(Viewer, PenumbraAndDemandPaintThePenumbra) {
+    demo::Viewer viewer(gl(), smallState(View::penumbra), std::nullopt, 96, 54);
+    viewer.settle();
+    const renderer::ByteImage painted = viewer.picture(1);
+    ViewerState state = viewer.state();
+    state.view = View::demand;
+    viewer.show(state);
+    viewer.step();
+    const renderer::ByteImage demand = viewer.picture(1);
+    int both = 0;
+    for (int y = 0; y < painted.height; ++y)
+        for (int x = 0; x < painted.width; ++x) {
+            if (coloured(demand, x, y)) {
+                EXPECT_TRUE(coloured(painted, x, y)) << x << ' ' << y;
+                ++both;
+            }
+        }
+    EXPECT_GT(both, 50);
+}
+
+TEST(Viewer, ShowsAnotherStateOrStaysAsItWas) {
+    demo::Viewer viewer(gl(), smallState(View::picture), std::nullopt, 64, 36);
+    viewer.settle();
+    ViewerState state = viewer.state();
+    state.scene = "planar_occluder";
+    state.technique = "hard";
+    state.sunElevationDeg = 60;
+    viewer.show(state);
+    viewer.step();
+    EXPECT_EQ(viewer.frame().scene().name, "planar_occluder");
+    EXPECT_EQ(viewer.frame().scene().sun.elevationDeg, 60);
+    ViewerState bad = state;
+    bad.radiusM = 1e6;
+    EXPECT_THAT(messageOf([&] { viewer.show(bad); }), HasSubstr("radius is 1000000"));
+    EXPECT_EQ(viewer.state(), state);
+    bad = state;
+    bad.gain = 0;
+    EXPECT_THAT(messageOf([&] { viewer.show(bad); }), HasSubstr("gain: 0: must be in [1, 64]"));
+    viewer.step();
+    EXPECT_EQ(viewer.state(), state);
+}
+
+TEST(ViewerState, IsReadAsItWasWritten) {
+    const tests::TemporaryFolder folder;
+    const auto file = folder.path() / "state.json";
+    ViewerState state;
+    demo::writeViewerState(file, state);
+    EXPECT_EQ(demo::readViewerState(file), state);
+    state = {.scene = "planar_occluder",
+             .technique = "hard",
+             .resolution = 512,
+             .compareWith = 128,
+             .radiusM = 0.25,
+             .audience = {.detection = 0.1, .people = 0.9},
+             .view = View::difference,
+             .splitAt = 0.25F,
+             .gain = 8,
+             .cameraYawDeg = 30.5F,
+             .sunElevationDeg = 20,
+             .path = Path::sun,
+             .pathPlace = 0.5,
+             .panel = false,
+             .timePasses = true};
+    state.parameters["pcf_disc"] = renderer::findTechnique("pcf_disc").standardParameters();
+    state.parameters["pcf_disc"][0] = 0.25F;
+    demo::writeViewerState(file, state);
+    EXPECT_EQ(demo::readViewerState(file), state);
+}
+
+TEST(ViewerState, NamesFieldValueAndRuleOfABadFile) {
+    const tests::TemporaryFolder folder;
+    const auto file = folder.path() / "state.json";
+    demo::writeViewerState(file, {});
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    const auto readWith = [&](const std::string& from, const std::string& to) {
+        std::string changed = text.str();
+        const auto at = changed.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        changed.replace(at, from.size(), to);
+        std::ofstream(file) << changed;
+        return messageOf([&] { demo::readViewerState(file); });
+    };
+    EXPECT_THAT(readWith("\"yard\"", "\"yart\""), HasSubstr("yart"));
+    EXPECT_THAT(readWith("\"pcf_disc\"", "\"pcf\""), HasSubstr("pcf"));
+    EXPECT_THAT(readWith("4096", "0"), HasSubstr("compare_with: 0: must be at least 1"));
+    EXPECT_THAT(readWith("\"gain\": 4.0", "\"gain\": 400"), HasSubstr("gain: 400"));
+    EXPECT_THAT(readWith("\"parameters\": {}", "\"parameters\": {\"hart\": {}}"),
+                HasSubstr("hart"));
+    EXPECT_THAT(readWith("state 1.0", "state 2.0"), HasSubstr("schema"));
+    EXPECT_THAT(readWith("\"panel\"", "\"pannel\""), HasSubstr("panel"));
+}
+
+TEST(ViewerKeys, ChangeWhatTheySay) {
+    ViewerState state;
+    EXPECT_TRUE(demo::applyKey('4', state));
+    EXPECT_EQ(state.resolution, 1024);
+    EXPECT_TRUE(demo::applyKey('R', state));
+    EXPECT_FALSE(state.resolution);
+    EXPECT_TRUE(demo::applyKey('R', state));
+    EXPECT_TRUE(state.resolution);
+    for (std::size_t i = 0; i < renderer::techniques().size(); ++i) demo::applyKey('T', state);
+    EXPECT_EQ(state.technique, ViewerState().technique) << "once round";
+    for (std::size_t i = 0; i < renderer::kAllViews.size(); ++i) demo::applyKey('V', state);
+    EXPECT_EQ(state.view, View::picture);
+    demo::applyKey('S', state);
+    EXPECT_NE(state.scene, ViewerState().scene);
+    demo::applyKey('P', state);
+    EXPECT_EQ(state.path, Path::camera);
+    demo::applyKey('H', state);
+    EXPECT_FALSE(state.panel);
+    EXPECT_FALSE(demo::applyKey('Q', state));
+}
+
+}  // namespace
