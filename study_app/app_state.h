@@ -42,6 +42,7 @@ struct CalibrationState {
     int greyCode = 186;  ///< matches at gamma 2.2
     bool gammaGiven = false;
     double luminance = 0;  ///< cd/m2; 0: not measured
+    std::string problem;   ///< why it could not be stored
 };
 
 struct AppState {
@@ -54,10 +55,12 @@ struct AppState {
     bool messageIsTrouble = false;
     double restOver = 0;  ///< when the break may end
     bool practiceOver = false, practiceStuck = false;
-    bool panelShown = false;                ///< experimenter's panel
     bool resultsShown = false;              ///< on the last screen
     std::vector<std::size_t> rerunChoices;  ///< conditions that the end offers to run again
     std::optional<std::size_t> rerun;
+
+    /// Stimuli are on, not the words between practice and trials.
+    bool answering() const { return showsStimuli(flow.screen) && !practiceOver && !practiceStuck; }
 };
 
 }  // namespace study_app

@@ -9,6 +9,9 @@
 
 namespace study_app {
 
+/// ImGui lays out what it shows for the first time over two frames.
+inline constexpr int kFramesToSettle = 3;
+
 /// The grey behind the pages, code value.
 inline constexpr int kPageGrey = 33;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
+#include <utility>
 
 namespace study_app {
 namespace {
@@ -114,6 +114,19 @@ Side robotAnswer(const cv::Mat& frame, std::mt19937_64& rng) {
     const double difference = contourBend(panels[0]) - contourBend(panels[1]);
     if (std::abs(difference) < kNoticeablePx) return coin;
     return difference > 0 ? Side::left : Side::right;
+}
+
+void RobotObserver::look(const cv::Mat& frame, double now) {
+    decided_ = robotAnswer(frame, coin_);
+    due_ = now + answerS_;
+}
+
+std::optional<Side> RobotObserver::press(double now) {
+    return now >= due_ ? std::exchange(decided_, {}) : std::nullopt;
+}
+
+std::optional<double> RobotObserver::secondsUntilPress(double now) const {
+    return decided_ ? std::optional(std::max(0.0, due_ - now)) : std::nullopt;
 }
 
 }  // namespace study_app

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -29,5 +30,24 @@ double contourBend(const cv::Mat& codes);
 
 /// The answer to a frame: two panels are a pair, one is a yes/no question.
 Side robotAnswer(const cv::Mat& frame, std::mt19937_64& rng);
+
+/// The robot in front of the window: looks at a frame, and presses a while later.
+class RobotObserver {
+  public:
+    /// It answers that long after it saw the stimulus, s.
+    explicit RobotObserver(double answerS) : answerS_(answerS) {}
+
+    void look(const cv::Mat& frame, double now);
+    /// What it decided on, once its time has come.
+    std::optional<Side> press(double now);
+    /// Until then; nothing where it has not seen anything to answer.
+    std::optional<double> secondsUntilPress(double now) const;
+
+  private:
+    double answerS_;
+    std::mt19937_64 coin_{1};
+    std::optional<Side> decided_;
+    double due_ = 0;
+};
 
 }  // namespace study_app

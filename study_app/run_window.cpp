@@ -8,72 +8,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
-#include <random>
-#include <set>
 #include <stdexcept>
 #include <string>
 
-#include "records/participants_table.h"
-#include "records/whole_file.h"
 #include "study_app/app_state.h"
-#include "study_app/design_file.h"
 #include "study_app/display_file.h"
+#include "study_app/event_log.h"
 #include "study_app/page_parts.h"
+#include "study_app/panel_window.h"
 #include "study_app/robot_observer.h"
 #include "study_app/screens.h"
+#include "study_app/screenshots.h"
+#include "study_app/session_start.h"
 #include "study_app/stimulus_painter.h"
 
 namespace study_app {
 namespace {
 
-// ImGui lays out what it shows for the first time over two frames.
-constexpr int kFramesToSettle = 3;
 constexpr double kCursorBlinkS = 0.4, kCountdownS = 0.25;
-
-std::uint64_t freshSeed() {
-    std::random_device device;
-    // Below 2^53, so that every tool that reads the sidecar's JSON reads the same number.
-    return (static_cast<std::uint64_t>(device()) << 21) ^ device();
-}
-
-/// Throws where the framebuffer holds another code than was computed.
-void requireCodes(const cv::Mat& bgr, const PlacedImage& image) {
-    for (int row = 0; row < image.codes.rows; ++row) {
-        for (int c = 0; c < image.codes.cols; ++c) {
-            const auto& shown = bgr.at<cv::Vec3b>(image.y + row, image.x + c);
-            const int code = image.codes.at<std::uint8_t>(row, c);
-            if (shown[0] == code && shown[1] == code && shown[2] == code) continue;
-            throw std::runtime_error(
-                "stimulus: pixel (" + std::to_string(c) + ", " + std::to_string(row) + "): code " +
-                std::to_string(shown[1]) + " came out of the framebuffer: must be " +
-                std::to_string(code) + ": this driver or display mode changes what is shown");
-        }
-    }
-}
-
-records::ParticipantDetails detailsFrom(const SetupForm& form) {
-    records::ParticipantDetails details{
-        .age = {}, .gender = form.gender, .expertise = form.expertise};
-    if (!form.age.empty()) details.age = std::stod(form.age);
-    return details;
-}
-
-void printTiming(const std::vector<double>& latencies) {
-    if (latencies.empty()) return;
-    std::vector<double> sorted = latencies;
-    std::ranges::sort(sorted);
-    const auto quantile = [&](double share) {
-        return 1e3 *
-               sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-    };
-    std::printf(
-        "answer to next stimulus, less the intended pause: %zu trials, median %.1f ms, p99 "
-        "%.1f ms, largest %.1f ms\n",
-        sorted.size(), quantile(0.5), quantile(0.99), 1e3 * sorted.back());
-}
+/// What drawing the panel may take on a slow machine: with less time than this before the next
+/// change on the observer's screen it waits.
+constexpr double kPanelS = 0.1;
 
 class StudyWindow {
   public:
@@ -81,192 +37,165 @@ class StudyWindow {
     void run();
 
   private:
+    // What happened
+    void actAsRobot(double now);
     void handleInput(double now);
-    void handlePress(const Input::Press& press, double now, bool& returnPressed);
+    void handlePress(const Input::Press& press, double now);
+    void pressInTrials(const Input::Press& press, double now);
     void pressOffTrials(int key, double now);
     void handleDisturbance();
     void tick(double now);
-    void draw(bool returnPressed);
-    std::optional<Request> drawScreen(const Page& page);
-    void showFrame(const std::vector<PlacedImage>& images, bool newStimulus);
-    void saveScreenshot(const cv::Mat& bgr);
     double idleSeconds(double now) const;
 
+    // What is seen
+    void draw();
+    std::optional<Request> drawScreen(const Page& page);
+    void showFrame(const std::vector<PlacedImage>& images, bool newStimulus);
+    bool panelMayBeDrawn(double now) const;
+    void settle() { framesWanted_ = kFramesToSettle; }
+
+    // What follows
     void act(Request request, double now);
     void actOnEvent(RunnerEvent event, double now);
     void go(FlowEvent event, double now);
     void enter(Screen screen, double now);
     void pause(const std::string& why, bool trouble);
     void undo(double now);
-
-    void refreshSetup();
     void leaveSetup(double now);
-    void loadCalibration();
-    void leaveCalibration();
-    void startSession(const SetupForm& form);
+    void beginSession(double now);
     void rerun(double now);
-    void actAsRobot(double now);
-    void log(const std::string& line);
-    void logRows();
-    bool answering() const;
     FlowNeeds needs() const;
-    void settle() { framesWanted_ = kFramesToSettle; }
 
     WindowRun run_;
     Window window_;
+    PanelWindow panel_;
     StimulusPainter painter_;
     AppState state_;
+    EventLog log_;
+    Screenshots screenshots_;
+    std::optional<RobotObserver> robot_;
     int framesWanted_ = kFramesToSettle;
     bool returnPressed_ = false, verified_ = false;
-    std::set<std::string> screenshotsTaken_;
-    std::ofstream eventLog_;
-    std::size_t rowsLogged_ = 0;
-    struct RobotPress {
-        int key = 0;
-        double due = 0;
-    };
-    std::optional<RobotPress> robotPress_;
-    std::mt19937_64 robotCoin_{1};
 };
 
-StudyWindow::StudyWindow(const WindowRun& run) : run_(run), window_(run.window) {
-    state_.setup.form = run.form;
-    state_.setup.designs = shippedDesigns();
+StudyWindow::StudyWindow(const WindowRun& run)
+    : run_(run),
+      window_(run.window),
+      panel_(window_, run.window.uiScale),
+      log_(run.eventLog),
+      screenshots_(run.screenshots) {
+    if (run.robotAnswerS) robot_.emplace(*run.robotAnswerS);
+    if (run_.displays.empty()) run_.displays = displayFile();
     run_.context.glRenderer = window_.glRenderer();
     run_.context.glVersion = window_.glVersion();
     run_.context.viewportWidthPx = window_.widthPx();
     run_.context.viewportHeightPx = window_.heightPx();
-    if (!run.eventLog.empty()) {
-        eventLog_.open(run.eventLog, std::ios::app);
-        if (!eventLog_) throw std::runtime_error(run.eventLog.string() + ": cannot be written");
+    state_.setup.form = run.form;
+    state_.setup.designs = shippedDesigns();
+    state_.calibration = loadCalibration(window_, run_.displays);
+    lookUp(state_.setup);
+    if (run.startAtOnce) {
+        const SetupState& setup = state_.setup;
+        if (const std::string problem = missing(setup.form); !problem.empty()) {
+            throw std::runtime_error("--start: " + problem);
+        }
+        if (setup.problem.empty()) leaveSetup(Window::now());
+        if (!setup.problem.empty()) throw std::runtime_error(setup.problem);
+        if (state_.flow.screen == Screen::calibration) act(Request::next, Window::now());
+    } else {
+        log_.screen(toText(state_.flow.screen));
     }
-    log("screen setup");
-    if (run_.displays.empty()) run_.displays = displayFile();
-    loadCalibration();
-    refreshSetup();
-    if (!run.startAtOnce) return;
-    const SetupState& setup = state_.setup;
-    if (const std::string problem = missing(setup.form); !problem.empty()) {
-        throw std::runtime_error("--start: " + problem);
-    }
-    if (!setup.problem.empty()) throw std::runtime_error(setup.problem);
-    leaveSetup(Window::now());
-    if (state_.flow.screen == Screen::calibration) act(Request::next, Window::now());
-    if (state_.flow.screen == Screen::setup) throw std::runtime_error(setup.problem);
+    if (run.panel) panel_.toggle();
 }
 
 void StudyWindow::run() {
     while (state_.flow.screen != Screen::closed) {
-        const double before = Window::now();
-        window_.waitForEvents(framesWanted_ > 0 ? 0 : idleSeconds(before));
+        window_.waitForEvents(idleSeconds(Window::now()));
         const double now = Window::now();
-        if (run_.robot) actAsRobot(now);
+        actAsRobot(now);
         handleInput(now);
         tick(now);
-        logRows();
+        if (state_.runner) log_.rows(state_.runner->rows());
         if (state_.flow.screen == Screen::closed) break;
-        draw(returnPressed_);
+        draw();
         returnPressed_ = false;
     }
-    if (run_.printTiming && state_.runner) printTiming(state_.runner->latencies());
+    const auto latency = state_.runner ? state_.runner->latency() : std::nullopt;
+    if (run_.printTiming && latency) std::printf("%s\n", toText(*latency).c_str());
+}
+
+double StudyWindow::idleSeconds(double now) const {
+    if (framesWanted_ > 0 || (panel_.wantsDrawing() && panelMayBeDrawn(now))) return 0;
+    const auto robot = robot_ ? robot_->secondsUntilPress(now) : std::nullopt;
+    if (robot) return *robot;
+    if (state_.answering()) {
+        return state_.runner->stimulusDue(now) ? 0 : state_.runner->secondsUntilChange(now);
+    }
+    if (robot_) return kCountdownS;
+    if (state_.flow.screen == Screen::rest && now < state_.restOver) {
+        return std::min(kCountdownS, state_.restOver - now);
+    }
+    if (ImGui::GetIO().WantTextInput) return kCursorBlinkS;
+    return std::numeric_limits<double>::infinity();
 }
 
 /// Presses what the robot has decided on, and Return wherever a person would read first.
 void StudyWindow::actAsRobot(double now) {
-    if (robotPress_ && now >= robotPress_->due) {
-        window_.input().presses.push_back({.key = robotPress_->key});
-        robotPress_.reset();
-    } else if (!answering() && framesWanted_ == 0) {
+    if (!robot_) return;
+    if (const auto side = robot_->press(now)) {
+        const int key = *side == Side::left ? GLFW_KEY_LEFT : GLFW_KEY_RIGHT;
+        window_.input().presses.push_back({.key = key});
+    } else if (!state_.answering() && framesWanted_ == 0) {
         window_.input().presses.push_back({.key = GLFW_KEY_ENTER});
     }
 }
 
-void StudyWindow::log(const std::string& line) {
-    if (eventLog_.is_open()) eventLog_ << line << std::endl;
-}
-
-void StudyWindow::logRows() {
-    if (!eventLog_.is_open() || !state_.runner) return;
-    const auto& rows = state_.runner->rows();
-    for (; rowsLogged_ < rows.size(); ++rowsLogged_) {
-        const records::Trial& row = rows[rowsLogged_];
-        log("row " + std::to_string(row.number) + " " + std::string(records::toText(row.status)));
-    }
-}
-
-double StudyWindow::idleSeconds(double now) const {
-    double seconds = std::numeric_limits<double>::infinity();
-    if (robotPress_) return std::max(0.0, robotPress_->due - now);
-    if (run_.robot && !answering()) return kCountdownS;
-    if (answering()) {
-        if (state_.runner->stimulusDue(now)) return 0;
-        seconds = state_.runner->secondsUntilChange(now);
-    } else if (state_.flow.screen == Screen::rest && now < state_.restOver) {
-        seconds = std::min(kCountdownS, state_.restOver - now);
-    } else if (ImGui::GetIO().WantTextInput) {
-        seconds = kCursorBlinkS;
-    }
-    return seconds;
-}
-
-/// Stimuli are on, not the words between practice and trials.
-bool StudyWindow::answering() const {
-    return showsStimuli(state_.flow.screen) && !state_.practiceOver && !state_.practiceStuck;
-}
-
-FlowNeeds StudyWindow::needs() const {
-    if (!state_.runner) {
-        return {.practice = true,
-                .trialsRemain = state_.setup.existing.state != ExistingSession::State::finished};
-    }
-    return {.practice = state_.runner->practiceNeeded(),
-            .trialsRemain = !state_.runner->session().finished()};
-}
-
 void StudyWindow::handleInput(double now) {
+    panel_.takeInput();
     Input& input = window_.input();
-    if (!input.presses.empty() || !input.disturbance.empty()) settle();
+    if (input.exposed || !input.presses.empty() || !input.disturbance.empty()) settle();
     if (input.closeRequested) return act(Request::quit, now);
     if (!input.disturbance.empty()) handleDisturbance();
-    for (const Input::Press& press : input.presses) handlePress(press, now, returnPressed_);
+    for (const Input::Press& press : input.presses) handlePress(press, now);
     input.clear();
 }
 
 void StudyWindow::handleDisturbance() {
-    if (!answering()) return;
+    if (!state_.answering()) return;
     const bool wasOn = state_.runner->interrupt();
     pause("The trial was interrupted: " + window_.input().disturbance + "." +
               (wasOn ? " It comes again." : ""),
           false);
 }
 
-void StudyWindow::handlePress(const Input::Press& press, double now, bool& returnPressed) {
-    const auto answer = [&](Side side) {
-        if (const auto event = state_.runner->answer(side, now)) actOnEvent(*event, now);
-    };
+void StudyWindow::handlePress(const Input::Press& press, double now) {
     switch (press.key) {
         case GLFW_KEY_F2:
             if (state_.flow.screen == Screen::end) {
                 state_.resultsShown = !state_.resultsShown;
-            } else if (state_.runner) {
-                state_.panelShown = !state_.panelShown;
+            } else {
+                panel_.toggle();
             }
             return;
         case GLFW_KEY_ENTER:
         case GLFW_KEY_KP_ENTER:
-            returnPressed = true;
+            returnPressed_ = true;
             return;
         default:
-            break;
+            return state_.answering() ? pressInTrials(press, now) : pressOffTrials(press.key, now);
     }
-    if (!answering()) return pressOffTrials(press.key, now);
+}
+
+void StudyWindow::pressInTrials(const Input::Press& press, double now) {
+    const auto answer = [&](Side side) {
+        if (const auto event = state_.runner->answer(side, now)) actOnEvent(*event, now);
+    };
     switch (press.key) {
         case GLFW_KEY_LEFT:
             return answer(Side::left);
         case GLFW_KEY_RIGHT:
             return answer(Side::right);
         case GLFW_KEY_UNKNOWN:
-            if (ImGui::GetIO().WantCaptureMouse) return;
             return answer(press.click.xPx < window_.widthPx() / 2.0 ? Side::left : Side::right);
         case GLFW_KEY_ESCAPE:
         case GLFW_KEY_P:
@@ -289,30 +218,40 @@ void StudyWindow::pressOffTrials(int key, double now) {
 }
 
 void StudyWindow::tick(double now) {
-    if (!answering()) return;
+    if (!state_.answering()) return;
     const TrialPhase before = state_.runner->phase();
     if (const auto event = state_.runner->tick(now)) actOnEvent(*event, now);
     if (state_.runner->phase() != before) settle();
 }
 
-void StudyWindow::draw(bool returnPressed) {
+/// Between the trials; never while an answer may come, whose time it would change.
+bool StudyWindow::panelMayBeDrawn(double now) const {
+    if (!state_.answering()) return true;
+    return state_.runner->phase() != TrialPhase::stimulus &&
+           state_.runner->secondsUntilChange(now) > kPanelS;
+}
+
+void StudyWindow::draw() {
     const double now = Window::now();
-    const bool stimuli = answering();
+    const bool stimuli = state_.answering();
     const bool newStimulus = stimuli && state_.runner->stimulusDue(now);
     // While a stimulus is on, the picture on screen stays as it is: mouse and idle wake-ups cost
     // nothing.
-    if (stimuli && !newStimulus && framesWanted_ == 0 && !state_.panelShown) return;
-    framesWanted_ = std::max(0, framesWanted_ - 1);
-    window_.showCursor(!stimuli || state_.panelShown);
-    window_.beginFrame(stimuli ? state_.runner->presentation().backgroundCode : kPageGrey);
-    std::vector<PlacedImage> images;
-    const Page page{window_, now, returnPressed, images};
-    const std::optional<Request> request = drawScreen(page);
-    if (state_.panelShown && state_.runner) drawPanel(state_, page);
-    showFrame(images, newStimulus);
-    if (request) {
-        act(*request, Window::now());
-        settle();
+    if (!stimuli || newStimulus || framesWanted_ > 0) {
+        framesWanted_ = std::max(0, framesWanted_ - 1);
+        window_.showCursor(!stimuli);
+        window_.beginFrame(stimuli ? state_.runner->presentation().backgroundCode : kPageGrey);
+        std::vector<PlacedImage> images;
+        const std::optional<Request> request = drawScreen({window_, now, returnPressed_, images});
+        showFrame(images, newStimulus);
+        if (request) {
+            act(*request, Window::now());
+            settle();
+        }
+    }
+    if (panel_.wantsDrawing() && (newStimulus || panelMayBeDrawn(Window::now()))) {
+        // Nobody answers that soon after a stimulus has come.
+        panel_.draw(state_, screenshots_);
     }
 }
 
@@ -320,7 +259,10 @@ std::optional<Request> StudyWindow::drawScreen(const Page& page) {
     switch (state_.flow.screen) {
         case Screen::setup: {
             const auto request = drawSetup(state_, page);
-            if (state_.setup.lookedUp != state_.setup.form) refreshSetup();
+            if (state_.setup.lookedUp != state_.setup.form) {
+                lookUp(state_.setup);
+                settle();
+            }
             return request;
         }
         case Screen::calibration:
@@ -328,7 +270,7 @@ std::optional<Request> StudyWindow::drawScreen(const Page& page) {
         case Screen::instructions:
             return drawInstructions(state_, page);
         case Screen::practice:
-            if (!answering()) return drawPracticeOver(state_, page);
+            if (!state_.answering()) return drawPracticeOver(state_, page);
             drawStimuli(state_, page);
             return {};
         case Screen::trials:
@@ -351,17 +293,16 @@ void StudyWindow::showFrame(const std::vector<PlacedImage>& images, bool newStim
         painter_.draw(image.codes, image.x, image.y, window_.heightPx());
     }
     window_.renderInterface();
-    const bool verify = newStimulus && !state_.panelShown && (run_.verifyPixels || !verified_);
-    const bool robotLooks = run_.robot && newStimulus;
-    cv::Mat frame;  // for the robot
-    if (verify || robotLooks || !run_.screenshots.empty()) {
-        const cv::Mat bgr = window_.readPixels();
-        if (verify) {
-            for (const PlacedImage& image : images) requireCodes(bgr, image);
-            verified_ = true;
-        }
-        if (robotLooks) frame = bgr;
-        if (!run_.screenshots.empty() && (framesWanted_ == 0 || newStimulus)) saveScreenshot(bgr);
+    const bool verify = newStimulus && (run_.verifyPixels || !verified_);
+    const bool robotLooks = newStimulus && robot_;
+    const std::string name = pictureName(state_, Window::now());
+    const bool picture = (framesWanted_ == 0 || newStimulus) && screenshots_.wanted(name);
+    cv::Mat frame;
+    if (verify || robotLooks || picture) frame = window_.readPixels();
+    if (picture) screenshots_.take(name, frame);
+    if (verify) {
+        for (const PlacedImage& image : images) requireShown(frame, image.codes, image.x, image.y);
+        verified_ = true;
     }
     const double shown = window_.endFrame();
     if (!newStimulus) return;
@@ -369,63 +310,25 @@ void StudyWindow::showFrame(const std::vector<PlacedImage>& images, bool newStim
     window_.waitForEvents(0);
     window_.input().presses.clear();
     state_.runner->shown(shown);
-    if (robotLooks) {
-        const Side side = robotAnswer(frame, robotCoin_);
-        robotPress_ = {.key = side == Side::left ? GLFW_KEY_LEFT : GLFW_KEY_RIGHT,
-                       .due = shown + state_.runner->presentation().tooFastS};
-    }
-    if (!eventLog_.is_open()) return;
-    const records::Trial trial = state_.runner->trial();
-    const bool practice = state_.runner->stage() == SessionRunner::Stage::practice;
-    log((practice ? "practice " : "stimulus ") + std::to_string(trial.number) + " " +
-        trial.side.value_or(trial.type == records::TrialType::artifact ? "right" : "left"));
-}
-
-void StudyWindow::saveScreenshot(const cv::Mat& bgr) {
-    std::string name = toText(state_.flow.screen);
-    if (answering()) {
-        static constexpr const char* kPhases[] = {"idle", "blank", "fixation", "stimulus",
-                                                  "feedback"};
-        const bool due = state_.runner->stimulusDue(Window::now());
-        name += std::string("-") +
-                (due ? "stimulus" : kPhases[static_cast<int>(state_.runner->phase())]);
-    } else if (state_.practiceOver) {
-        name += "-over";
-    } else if (state_.practiceStuck) {
-        name += "-stuck";
-    }
-    if (state_.flow.screen == Screen::end && state_.resultsShown) name += "-results";
-    if (state_.panelShown) name += "-panel";
-    if (!screenshotsTaken_.insert(name).second) return;
-    records::createFolders(run_.screenshots);
-    const std::filesystem::path file = run_.screenshots / (name + ".png");
-    if (!cv::imwrite(file.string(), bgr)) {
-        throw std::runtime_error(file.string() + ": cannot be written");
-    }
+    if (robotLooks) robot_->look(frame, shown);
+    log_.stimulus(state_.runner->trial(), state_.runner->stage() == SessionRunner::Stage::practice);
 }
 
 void StudyWindow::act(Request request, double now) {
     switch (request) {
         case Request::next:
             if (state_.flow.screen == Screen::setup) return leaveSetup(now);
-            if (state_.flow.screen == Screen::calibration) leaveCalibration();
-            if (state_.flow.screen == Screen::instructions) {
-                try {
-                    startSession(state_.setup.form);
-                } catch (const std::runtime_error& error) {
-                    state_.flow = {};
-                    refreshSetup();
-                    state_.setup.problem = error.what();
-                    return;
-                }
+            if (state_.flow.screen == Screen::calibration) {
+                if (!storeCalibration(state_.calibration, run_.displays)) return;
             }
+            if (state_.flow.screen == Screen::instructions) return beginSession(now);
             return go(FlowEvent::next, now);
         case Request::back:
             return go(FlowEvent::back, now);
         case Request::undo:
             return undo(now);
         case Request::quit:
-            if (state_.runner && answering()) state_.runner->interrupt();
+            if (state_.runner && state_.answering()) state_.runner->interrupt();
             return go(FlowEvent::quit, now);
         case Request::practiceAgain:
             state_.practiceOver = state_.practiceStuck = false;
@@ -440,6 +343,7 @@ void StudyWindow::act(Request request, double now) {
 
 void StudyWindow::actOnEvent(RunnerEvent event, double now) {
     settle();
+    panel_.noteChange();
     state_.message.clear();
     switch (event) {
         case RunnerEvent::nextTrial:
@@ -447,11 +351,10 @@ void StudyWindow::actOnEvent(RunnerEvent event, double now) {
             return;
         case RunnerEvent::practiceOver:
             state_.practiceOver = true;
-            log("screen practice-over");
-            return;
+            return log_.screen("practice-over");
         case RunnerEvent::practiceStuck:
             state_.practiceStuck = true;
-            return;
+            return log_.screen("practice-stuck");
         case RunnerEvent::breakDue:
             state_.restOver = now + state_.runner->presentation().breakMinimumS;
             return go(FlowEvent::breakDue, now);
@@ -464,6 +367,15 @@ void StudyWindow::actOnEvent(RunnerEvent event, double now) {
     }
 }
 
+FlowNeeds StudyWindow::needs() const {
+    if (!state_.runner) {
+        return {.practice = true,
+                .trialsRemain = state_.setup.existing.state != ExistingSession::State::finished};
+    }
+    return {.practice = state_.runner->practiceNeeded(),
+            .trialsRemain = !state_.runner->session().finished()};
+}
+
 void StudyWindow::go(FlowEvent event, double now) {
     const Flow next = after(state_.flow, event, needs());
     const bool changed = next.screen != state_.flow.screen;
@@ -474,7 +386,8 @@ void StudyWindow::go(FlowEvent event, double now) {
 /// Stimuli begin with a blank; where the window cannot hold them there is a pause instead.
 void StudyWindow::enter(Screen screen, double now) {
     settle();
-    log(std::string("screen ") + toText(screen));
+    panel_.noteChange();
+    log_.screen(toText(screen));
     if (screen != Screen::practice) state_.practiceOver = state_.practiceStuck = false;
     if (!showsStimuli(screen)) return;
     const Design& design = state_.runner->session().design();
@@ -496,15 +409,18 @@ void StudyWindow::pause(const std::string& why, bool trouble) {
     state_.flow = after(state_.flow, FlowEvent::pause);
     state_.message = why;
     state_.messageIsTrouble = trouble;
-    log("screen pause");
+    log_.screen(toText(state_.flow.screen));
+    if (trouble) log_.problem(why);
+    panel_.noteChange();
     settle();
 }
 
 void StudyWindow::undo(double now) {
     settle();
-    const bool undone = state_.runner->undo();
-    if (!undone)
+    panel_.noteChange();
+    if (!state_.runner->undo()) {
         return pause("The answer could not be taken back. " + state_.runner->problem(), true);
+    }
     if (state_.flow.screen == Screen::trials) {
         state_.runner->begin(SessionRunner::Stage::session, now);
     } else {
@@ -514,44 +430,16 @@ void StudyWindow::undo(double now) {
     state_.messageIsTrouble = false;
 }
 
-void StudyWindow::refreshSetup() {
-    SetupState& setup = state_.setup;
-    const bool newFolder = !setup.lookedUp || setup.lookedUp->dataFolder != setup.form.dataFolder;
-    const bool newPerson = newFolder || setup.lookedUp->participant != setup.form.participant;
-    setup.problem.clear();
-    setup.design.reset();
-    setup.summary.clear();
-    setup.existing = findExisting(setup.form);
-    try {
-        if (newFolder) setup.participants = describeParticipants(setup.form.dataFolder);
-        if (newPerson && !setup.form.participant.empty()) {
-            const auto known =
-                records::readParticipant(setup.form.dataFolder, setup.form.participant);
-            if (known) {
-                if (known->age) setup.form.age = std::to_string(std::lround(*known->age));
-                setup.form.gender = known->gender;
-                setup.form.expertise = known->expertise;
-            }
-        }
-        setup.design = setup.existing.design ? *setup.existing.design : designOf(setup.form);
-        setup.summary = describeDesign(*setup.design);
-    } catch (const std::exception& error) {
-        setup.problem = error.what();
-    }
-    setup.lookedUp = setup.form;
-    settle();
-}
-
 void StudyWindow::leaveSetup(double now) {
-    refreshSetup();
     SetupState& setup = state_.setup;
-    if (!setup.design || setup.existing.state == ExistingSession::State::unusable) return;
+    lookUp(setup);
+    if (!setup.problem.empty()) return;
     try {
-        const records::Task task = setup.design->task;
-        state_.instructions = readInstructions(run_.instructions.empty() ? shippedInstructions(task)
-                                                                         : run_.instructions);
+        state_.instructions =
+            readInstructions(run_.instructions.empty() ? shippedInstructions(setup.design->task)
+                                                       : run_.instructions);
         if (setup.existing.state == ExistingSession::State::finished) {
-            startSession(setup.form);
+            state_.runner = startSession(state_, run_.context);
             state_.resultsShown = true;
         }
     } catch (const std::runtime_error& error) {
@@ -561,69 +449,29 @@ void StudyWindow::leaveSetup(double now) {
     go(FlowEvent::next, now);
 }
 
-void StudyWindow::loadCalibration() {
-    CalibrationState& c = state_.calibration;
-    c.warnings = displayWarnings(window_.displayState());
-    c.profile = window_.monitor();
-    const auto known = findDisplay(readDisplays(run_.displays), c.profile);
-    c.cardWidthPx *= window_.uiScale();
-    if (!known) return;
-    c.profile = *known;
-    c.known = true;
-    if (known->pxPerMm) {
-        c.cardWidthPx = std::round(*known->pxPerMm * kCardWidthMm);
-        c.cardMatched = true;
-    }
-    if (known->distanceMm) c.distanceCm = *known->distanceMm / 10;
-    c.distanceGiven = known->distanceMm.has_value();
-    if (known->gamma) c.greyCode = greyCodeOfHalfLight(*known->gamma);
-    c.gammaGiven = known->gamma.has_value();
-    c.luminance = known->luminanceCdM2.value_or(0);
-}
-
-void StudyWindow::leaveCalibration() {
-    CalibrationState& c = state_.calibration;
-    const DisplayProfile before = c.profile;
-    DisplayProfile& p = c.profile;
-    if (c.cardMatched) p.pxPerMm = pxPerMmFromCard(c.cardWidthPx);
-    if (c.distanceGiven) p.distanceMm = 10 * c.distanceCm;
-    if (c.gammaGiven) p.gamma = gammaFromGreyCode(c.greyCode);
-    if (c.luminance > 0) p.luminanceCdM2 = c.luminance;
-    if (p != before) storeDisplay(run_.displays, p);
-}
-
-void StudyWindow::startSession(const SetupForm& form) {
-    const ExistingSession existing = findExisting(form);
-    const SessionRequest request =
-        requestFrom(form, existing, state_.calibration.profile, freshSeed(), run_.context);
-    const records::ParticipantDetails details = detailsFrom(form);
-    state_.runner = std::make_unique<SessionRunner>(request);
-    if (details != records::ParticipantDetails{}) {
-        records::writeParticipant(form.dataFolder, form.participant, details);
-    }
-}
-
-/// The flagged condition alone, as a session of its own beside the first one.
-void StudyWindow::rerun(double now) {
-    SessionRequest request = state_.runner->request();
-    request.design = rerunDesign(request.design, *state_.rerun);
-    request.seed = freshSeed();
-    const std::string base = request.session.value_or("") + "rerun";
-    for (int i = 1;; ++i) {
-        request.session = base + std::to_string(i);
-        const auto table =
-            records::trialTablePath(request.dataFolder, request.participant, request.session);
-        if (!std::filesystem::exists(table)) break;
-    }
+/// Where it cannot begin, the set-up screen says why.
+void StudyWindow::beginSession(double now) {
     try {
-        state_.runner = std::make_unique<SessionRunner>(request);
+        state_.runner = startSession(state_, run_.context);
     } catch (const std::runtime_error& error) {
-        state_.message = error.what();
-        state_.resultsShown = false;
+        state_.flow = {};
+        enter(state_.flow.screen, now);
+        lookUp(state_.setup);
+        state_.setup.problem = error.what();
+        log_.problem(state_.setup.problem);
         return;
     }
+    go(FlowEvent::next, now);
+}
+
+void StudyWindow::rerun(double now) {
     state_.resultsShown = false;
-    rowsLogged_ = 0;
+    try {
+        state_.runner = startRerun(*state_.runner, *state_.rerun);
+    } catch (const std::runtime_error& error) {
+        state_.message = error.what();
+        return;
+    }
     go(FlowEvent::rerun, now);
 }
 

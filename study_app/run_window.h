@@ -22,14 +22,14 @@ struct WindowRun {
     /// Begin at the instructions with what form and calibration file hold; what is missing there is
     /// an error.
     bool startAtOnce = false;
+    bool panel = false;  ///< the experimenter's window is open from the beginning
     /// For checking a set-up and for tests:
     std::filesystem::path screenshots{};  ///< a PNG of every screen, once each, goes there
     bool verifyPixels = false;            ///< read back every stimulus, not only the first
-    bool robot = false;                   ///< robot_observer.h sits in front of it
+    /// robot_observer.h sits in front of it and answers that long after each stimulus, s.
+    std::optional<double> robotAnswerS{};
     bool printTiming = false;
-    /// A line for each screen ("screen trials"), stimulus ("stimulus 12 left") and row ("row 12
-    /// ok"), flushed at once: for scripts that press keys.
-    std::filesystem::path eventLog{};
+    std::filesystem::path eventLog{};  ///< see event_log.h
 };
 
 /// Runs until the window is closed. Throws std::runtime_error: no display, a session that cannot be

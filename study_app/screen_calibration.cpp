@@ -151,6 +151,7 @@ std::optional<Request> drawCalibration(AppState& state, const Page& page) {
                     (c.known ? ": calibrated before. Check it where anything has changed."
                              : ": not calibrated yet."));
     if (!c.warnings.empty()) warning(c.warnings);
+    if (!c.problem.empty()) warning(c.problem);
     ImGui::Dummy({0, page.px(10)});
     const float left = std::floor(ImGui::GetContentRegionAvail().x * 0.5f);
     ImGui::BeginChild("card", {left - page.px(16), 0}, false, ImGuiWindowFlags_NoBackground);

@@ -24,8 +24,18 @@ void textField(const Page& page, const char* name, const char* hint, std::string
 }
 
 void designField(const Page& page, SetupState& setup) {
+    const std::string begun = setup.existing.design ? setup.existing.design->name : kNewDesign;
     label(page, "Design");
-    if (!ImGui::BeginCombo("##Design", setup.form.design.c_str())) return;
+    if (!ImGui::BeginCombo("##Design",
+                           (setup.form.design.empty() ? begun : setup.form.design).c_str())) {
+        return;
+    }
+    if (ImGui::Selectable("as the session began", setup.form.design.empty())) {
+        setup.form.design.clear();
+    }
+    ImGui::PushTextWrapPos(page.px(420));
+    faint(page, std::string("For a new session: ") + kNewDesign + ".");
+    ImGui::PopTextWrapPos();
     for (const ShippedDesign& design : setup.designs) {
         const bool chosen = design.name == setup.form.design;
         if (ImGui::Selectable(design.name.c_str(), chosen)) setup.form.design = design.name;
@@ -82,8 +92,6 @@ void drawState(const Page& page, const SetupState& setup) {
     } else if (existing.state == State::finished) {
         paragraph("This session is finished: " + std::to_string(existing.total) +
                   " trials. Its results can be looked at.");
-    } else if (existing.state == State::unusable) {
-        warning(existing.problem);
     }
     if (setup.design) {
         ImGui::PushFont(page.window.fonts().text);
@@ -116,11 +124,11 @@ std::optional<Request> drawSetup(AppState& state, const Page& page) {
     drawState(page, setup);
     ImGui::EndChild();
 
-    const bool ready = missing(setup.form).empty() && setup.design &&
-                       setup.existing.state != ExistingSession::State::unusable;
+    const bool ready = missing(setup.form).empty();
     const char* start = "Start";
     if (setup.existing.state == ExistingSession::State::unfinished) start = "Resume";
     if (setup.existing.state == ExistingSession::State::finished) start = "Show results";
+    if (!setup.problem.empty()) start = "Try again";
     const auto pressed = endPage(
         page,
         {.primary = start, .enabled = ready, .secondary = "Quit", .note = missing(setup.form)});

@@ -22,8 +22,8 @@ struct PlacedImage {
 /// What a screen draws on and with.
 struct Page {
     const Window& window;
-    double now = 0;
-    bool returnPressed = false;
+    double now;
+    bool returnPressed;
     std::vector<PlacedImage>& images;
 
     float px(float atScale1) const { return atScale1 * window.uiScale(); }
@@ -51,8 +51,8 @@ std::optional<Request> drawRest(AppState& state, const Page& page);
 std::optional<Request> drawPause(AppState& state, const Page& page);
 std::optional<Request> drawEnd(AppState& state, const Page& page);
 
-/// For the experimenter alone, over any screen of a session.
-void drawPanel(AppState& state, const Page& page);
+/// The experimenter's window: all of it at once, nothing to click.
+void drawPanel(const AppState& state, const Page& page);
 
 /// The part of the window that a stimulus of this task needs, px.
 cv::Size stimulusArea(records::Task task, int windowPx);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "study_app/undo.h"
@@ -31,6 +32,15 @@ double resumeTime(const RecordedSession& recorded) {
 Response responseFor(Side side, Task task) {
     if (task == Task::twoAfc) return side == Side::left ? Response::left : Response::right;
     return side == Side::left ? Response::notSeen : Response::seen;
+}
+
+std::string toText(const Latency& l) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "answer to next stimulus, less the intended pause: %zu trials, median %.1f ms, "
+                  "p99 %.1f ms, largest %.1f ms",
+                  l.trials, 1e3 * l.median, 1e3 * l.p99, 1e3 * l.largest);
+    return text;
 }
 
 SessionRunner::SessionRunner(const SessionRequest& request)
@@ -205,6 +215,16 @@ bool SessionRunner::undo() {
     undoable_ = false;
     sinceBreak_ = std::max(0, sinceBreak_ - 1);
     return true;
+}
+
+std::optional<Latency> SessionRunner::latency() const {
+    if (latencies_.empty()) return {};
+    std::vector<double> sorted = latencies_;
+    std::ranges::sort(sorted);
+    const auto quantile = [&](double share) {
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    };
+    return Latency{sorted.size(), quantile(0.5), quantile(0.99), sorted.back()};
 }
 
 double SessionRunner::secondsLeft() const {

@@ -40,6 +40,14 @@ enum class RunnerEvent {
 enum class Side { left, right };
 records::Response responseFor(Side side, records::Task task);
 
+/// From an answer to the swap that shows the next stimulus, less the pause that is intended, s.
+struct Latency {
+    std::size_t trials = 0;
+    double median = 0, p99 = 0, largest = 0;
+};
+/// In a line, ms.
+std::string toText(const Latency& latency);
+
 class SessionRunner {
   public:
     enum class Stage { practice, session };
@@ -87,8 +95,8 @@ class SessionRunner {
     const std::vector<records::Trial>& rows() const { return rows_; }
     const std::string& problem() const { return problem_; }
 
-    /// From the last answer to the swap of the next stimulus, less what was intended; seconds.
-    const std::vector<double>& latencies() const { return latencies_; }
+    /// Nothing before the second stimulus.
+    std::optional<Latency> latency() const;
 
   private:
     std::optional<RunnerEvent> take(const Outcome& outcome, double now);

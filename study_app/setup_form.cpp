@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "study_app/setup_form.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <set>
+#include <cstring>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "quest/quest.h"
+#include "records/file_descriptor.h"
 #include "records/quoted_text.h"
 #include "records/session_sidecar.h"
 #include "study_app/design_file.h"
@@ -70,6 +77,30 @@ std::string describeTable(const fs::path& table) {
     }
 }
 
+void requireFree(const fs::path& table) {
+    const records::FileDescriptor file = records::openFile(table, O_RDONLY);
+    if (!file.isOpen() || ::flock(file.get(), LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+        return;
+    throw std::runtime_error(table.string() +
+                             ": is open in another program: this session is running");
+}
+
+/// The session goes on only as it began: what the form asks for must be that.
+void requireAsBegun(const SetupForm& form, const fs::path& table, const Session& session) {
+    const auto normalised = [](const Design& d) { return nlohmann::json(normalisedJson(d)); };
+    const Design& begun = session.design();
+    std::string difference = designDifference(normalised(begun), normalised(designOf(form, begun)));
+    if (!difference.empty()) difference = "design: " + difference;
+    if (difference.empty() && !form.seed.empty() && seedFrom(form.seed) != session.seed()) {
+        difference =
+            "seed is " + std::to_string(session.seed()) + " there and " + form.seed + " here";
+    }
+    if (difference.empty()) return;
+    throw std::runtime_error(records::sidecarPath(table).string() + ": " + difference +
+                             ": a session goes on only as it began; choose another session or "
+                             "participant for a new one");
+}
+
 }  // namespace
 
 ExistingSession findExisting(const SetupForm& form) {
@@ -78,7 +109,9 @@ ExistingSession findExisting(const SetupForm& form) {
     const fs::path table = tableOf(form);
     if (!fs::exists(table)) return existing;
     try {
+        requireFree(table);
         const ReplayedSession replayed = replayTable(table);
+        requireAsBegun(form, table, replayed.session);
         existing.answered = replayed.session.answered();
         existing.total = replayed.session.total();
         existing.design = replayed.session.design();
@@ -133,8 +166,9 @@ Design withTask(Design design, records::Task task) {
     return design;
 }
 
-Design designOf(const SetupForm& form) {
-    Design design = readDesign(findDesign(form.design));
+Design designOf(const SetupForm& form, const std::optional<Design>& begun) {
+    const std::string name = form.design.empty() ? kNewDesign : form.design;
+    Design design = form.design.empty() && begun ? *begun : readDesign(findDesign(name));
     if (form.presentation) design.presentation = *form.presentation;
     return form.task ? withTask(design, *form.task) : design;
 }
@@ -158,6 +192,17 @@ std::vector<std::string> describeDesign(const Design& d) {
                   std::max(1.0, expectedMinutes(d)));
     lines.emplace_back(text);
     return lines;
+}
+
+std::string notWritable(const fs::path& folder) {
+    std::error_code error;
+    fs::path there = fs::absolute(folder, error);
+    while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+    if (!fs::is_directory(there, error)) {
+        return folder.string() + ": cannot be written: " + there.string() + " is no folder";
+    }
+    if (::access(there.c_str(), W_OK | X_OK) == 0) return {};
+    return folder.string() + ": cannot be written: " + there.string() + ": " + std::strerror(errno);
 }
 
 std::string missing(const SetupForm& form) {

@@ -18,13 +18,18 @@
 
 namespace study_app {
 
+inline constexpr const char* kNewDesign = "paper16";
+
 /// As typed.
 struct SetupForm {
     std::string dataFolder = "study";
-    std::string participant, session;               ///< session may be empty
-    std::string age, gender, expertise;             ///< may be empty
-    std::string design = "paper16";                 ///< a shipped design or a file
-    std::string seed;                               ///< empty: drawn when the session starts
+    std::string participant, session;    ///< session may be empty
+    std::string age, gender, expertise;  ///< may be empty
+    /// A shipped design or a file; empty: the one that the session began with, kNewDesign for a new
+    /// session. Design, task and seed that are given hold for a session that exists already, too:
+    /// where it began with others it is unusable.
+    std::string design;
+    std::string seed;                               ///< empty: as it began, or drawn when it starts
     std::optional<records::Task> task;              ///< absent: the design's own
     std::optional<Presentation> presentation = {};  ///< absent: the design's own
     bool operator==(const SetupForm&) const = default;
@@ -35,7 +40,7 @@ struct ExistingSession {
     enum class State { none, unfinished, finished, unusable };
     State state = State::none;
     std::size_t answered = 0, total = 0;
-    std::optional<Design> design;  ///< of its sidecar; a session goes on only as it began
+    std::optional<Design> design;  ///< that it goes on with; none where it is unusable
     std::uint64_t seed = 0;
     std::string problem;  ///< unusable: why
 };
@@ -46,14 +51,18 @@ ExistingSession findExisting(const SetupForm& form);
 std::vector<std::string> describeParticipants(const std::filesystem::path& dataFolder,
                                               std::size_t most = 200);
 
-/// The form's design with the form's task and presentation. Throws like readDesign and findDesign.
-Design designOf(const SetupForm& form);
+/// The form's design, else `begun`, else kNewDesign, with the form's task and presentation. Throws
+/// like readDesign and findDesign.
+Design designOf(const SetupForm& form, const std::optional<Design>& begun = {});
 
 /// A design for the other task at the same criterion.
 Design withTask(Design design, records::Task task);
 
 /// In plain words, a line each: what is shown, how many trials, how long.
 std::vector<std::string> describeDesign(const Design& design);
+
+/// Why nothing can be written into this folder, which need not exist yet; empty where it can.
+std::string notWritable(const std::filesystem::path& folder);
 
 /// Empty when a session can start; else what is missing, as a sentence.
 std::string missing(const SetupForm& form);

@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -84,6 +85,21 @@ void StimulusPainter::draw(const cv::Mat& codes, int x, int y, int framebufferHe
     glUniform2i(originLocation_, x, bottom);
     glBindVertexArray(vertexArray_);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void requireShown(const cv::Mat& frame, const cv::Mat& codes, int x, int y) {
+    for (int row = std::max(0, -y); row < std::min(codes.rows, frame.rows - y); ++row) {
+        for (int column = std::max(0, -x); column < std::min(codes.cols, frame.cols - x);
+             ++column) {
+            const auto& shown = frame.at<cv::Vec3b>(y + row, x + column);
+            const int code = codes.at<std::uint8_t>(row, column);
+            if (shown[0] == code && shown[1] == code && shown[2] == code) continue;
+            throw std::runtime_error(
+                "stimulus: pixel (" + std::to_string(column) + ", " + std::to_string(row) +
+                "): code " + std::to_string(shown[1]) + " came out of the framebuffer: must be " +
+                std::to_string(code) + ": this driver or display mode changes what is shown");
+        }
+    }
 }
 
 }  // namespace study_app

@@ -7,12 +7,6 @@
 
 namespace study_app {
 
-/// A rectangle of framebuffer pixels from the top left.
-struct PixelRect {
-    int x = 0, y = 0, width = 0, height = 0;
-    bool operator==(const PixelRect&) const = default;
-};
-
 class StimulusPainter {
   public:
     /// Throws std::runtime_error with the driver's log where the shader does not compile.
@@ -29,5 +23,10 @@ class StimulusPainter {
     unsigned program_ = 0, texture_ = 0, vertexArray_ = 0;
     int originLocation_ = -1;
 };
+
+/// Throws std::runtime_error where a frame that was read back (CV_8UC3) holds another colour than
+/// these codes at (x, y), naming pixel, code and colour. What lies outside the frame is not looked
+/// at.
+void requireShown(const cv::Mat& frame, const cv::Mat& codes, int x, int y);
 
 }  // namespace study_app

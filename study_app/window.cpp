@@ -11,50 +11,95 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "study_app/monitors.h"
+
 namespace study_app {
+
+/// Whose event it is: while a callback runs, ImGui's current context is that of its window.
+struct Listener {
+    explicit Listener(GLFWwindow* window)
+        : own(*static_cast<Window*>(glfwGetWindowUserPointer(window))),
+          input(own.input_),
+          before(ImGui::GetCurrentContext()) {
+        ImGui::SetCurrentContext(own.interface_);
+        input.any = true;
+    }
+    ~Listener() { ImGui::SetCurrentContext(before); }
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    Window& own;
+    Input& input;
+    ImGuiContext* before;
+};
+
 namespace {
 
-constexpr const char* kFontFolder = "/usr/share/fonts/truetype/dejavu/";
-// Sizes at scale 1, px: body text that is read easily at arm's length.
-constexpr float kTextPx = 17, kHeadingPx = 27, kSmallPx = 14;
-
-Input& inputOf(GLFWwindow* window) {
-    return *static_cast<Input*>(glfwGetWindowUserPointer(window));
+void onKey(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+    const Listener heard(window);
+    if (action == GLFW_PRESS) heard.input.presses.push_back({.key = key});
+    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
 }
 
-void onKey(GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_PRESS) inputOf(window).presses.push_back({.key = key});
+void onCharacter(GLFWwindow* window, unsigned character) {
+    const Listener heard(window);
+    ImGui_ImplGlfw_CharCallback(window, character);
 }
 
-void onMouseButton(GLFWwindow* window, int button, int action, int) {
+void onMouseButton(GLFWwindow* window, int button, int action, int modifiers) {
+    const Listener heard(window);
+    ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
     if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
     double x = 0, y = 0;
     int windowWidth = 0, windowHeight = 0, width = 0, height = 0;
     glfwGetCursorPos(window, &x, &y);
     glfwGetWindowSize(window, &windowWidth, &windowHeight);
     glfwGetFramebufferSize(window, &width, &height);
-    inputOf(window).presses.push_back({.key = GLFW_KEY_UNKNOWN,
-                                       .click = {.xPx = x * width / std::max(1, windowWidth),
-                                                 .yPx = y * height / std::max(1, windowHeight)}});
+    heard.input.presses.push_back({.key = GLFW_KEY_UNKNOWN,
+                                   .click = {.xPx = x * width / std::max(1, windowWidth),
+                                             .yPx = y * height / std::max(1, windowHeight)}});
+}
+
+void onScroll(GLFWwindow* window, double x, double y) {
+    const Listener heard(window);
+    ImGui_ImplGlfw_ScrollCallback(window, x, y);
+}
+
+void onCursorEnter(GLFWwindow* window, int entered) {
+    const Listener heard(window);
+    ImGui_ImplGlfw_CursorEnterCallback(window, entered);
+}
+
+void onCursorMove(GLFWwindow* window, double, double) {
+    const Listener heard(window);
 }
 
 void onFocus(GLFWwindow* window, int focused) {
-    if (focused == GLFW_FALSE) inputOf(window).disturbance = "another window came to the front";
+    const Listener heard(window);
+    ImGui_ImplGlfw_WindowFocusCallback(window, focused);
+    if (focused == GLFW_FALSE) heard.input.disturbance = "another window came to the front";
 }
 
 void onIconify(GLFWwindow* window, int iconified) {
-    if (iconified == GLFW_TRUE) inputOf(window).disturbance = "the window was minimised";
+    const Listener heard(window);
+    if (iconified == GLFW_TRUE) heard.input.disturbance = "the window was minimised";
 }
 
 void onFramebufferSize(GLFWwindow* window, int, int) {
-    inputOf(window).disturbance = "the window changed its size";
+    const Listener heard(window);
+    heard.input.disturbance = "the window changed its size";
+}
+
+void onRefresh(GLFWwindow* window) {
+    const Listener heard(window);
+    heard.input.exposed = true;
 }
 
 void onClose(GLFWwindow* window) {
-    inputOf(window).closeRequested = true;
+    const Listener heard(window);
+    heard.input.closeRequested = true;
 }
 
 std::string glfwProblem() {
@@ -68,173 +113,118 @@ std::string glText(GLenum name) {
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
-/// The monitor that holds most of the window.
-GLFWmonitor* monitorOf(GLFWwindow* window) {
-    if (GLFWmonitor* own = glfwGetWindowMonitor(window)) return own;
-    int x = 0, y = 0, width = 0, height = 0, count = 0;
-    glfwGetWindowPos(window, &x, &y);
-    glfwGetWindowSize(window, &width, &height);
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    GLFWmonitor* best = glfwGetPrimaryMonitor();
-    int most = 0;
-    for (int i = 0; i < count; ++i) {
-        int left = 0, top = 0;
-        glfwGetMonitorPos(monitors[i], &left, &top);
-        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
-        if (mode == nullptr) continue;
-        const int w = std::min(x + width, left + mode->width) - std::max(x, left);
-        const int h = std::min(y + height, top + mode->height) - std::max(y, top);
-        const int area = std::max(0, w) * std::max(0, h);
-        if (area > most) {
-            most = area;
-            best = monitors[i];
-        }
-    }
-    return best;
-}
-
-/// Quiet greys with one accent: the study's grey background goes on behind the screens.
-void setStyle(float scale) {
-    ImGui::StyleColorsDark();
-    ImGuiStyle& style = ImGui::GetStyle();
-    style.WindowRounding = 0;
-    style.WindowBorderSize = 0;
-    style.FrameRounding = 4;
-    style.GrabRounding = 4;
-    style.PopupRounding = 4;
-    style.TabRounding = 4;
-    style.WindowPadding = {24, 20};
-    style.FramePadding = {10, 6};
-    style.ItemSpacing = {10, 9};
-    style.CellPadding = {8, 4};
-    style.ScrollbarSize = 12;
-    const auto set = [&](ImGuiCol which, float grey, float alpha = 1) {
-        style.Colors[which] = {grey, grey, grey * 1.03f, alpha};
-    };
-    const ImVec4 accent{0.36f, 0.60f, 0.87f, 1}, dim{0.25f, 0.42f, 0.63f, 1};
-    set(ImGuiCol_Text, 0.93f);
-    set(ImGuiCol_TextDisabled, 0.66f);
-    set(ImGuiCol_WindowBg, 0.13f);
-    set(ImGuiCol_PopupBg, 0.16f);
-    set(ImGuiCol_FrameBg, 0.21f);
-    set(ImGuiCol_FrameBgHovered, 0.26f);
-    set(ImGuiCol_FrameBgActive, 0.29f);
-    set(ImGuiCol_Button, 0.26f);
-    set(ImGuiCol_ButtonHovered, 0.33f);
-    set(ImGuiCol_ButtonActive, 0.38f);
-    set(ImGuiCol_Separator, 0.30f);
-    set(ImGuiCol_Header, 0.26f);
-    set(ImGuiCol_HeaderHovered, 0.32f);
-    set(ImGuiCol_HeaderActive, 0.36f);
-    set(ImGuiCol_TableHeaderBg, 0.18f);
-    set(ImGuiCol_TableBorderLight, 0.25f);
-    set(ImGuiCol_TableBorderStrong, 0.25f);
-    set(ImGuiCol_Tab, 0.18f);
-    set(ImGuiCol_TitleBg, 0.17f);
-    set(ImGuiCol_TitleBgActive, 0.17f);
-    style.Colors[ImGuiCol_TabHovered] = style.Colors[ImGuiCol_TabActive] = dim;
-    style.Colors[ImGuiCol_CheckMark] = style.Colors[ImGuiCol_SliderGrab] = accent;
-    style.Colors[ImGuiCol_SliderGrabActive] = style.Colors[ImGuiCol_NavHighlight] = accent;
-    style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_PlotLines] = accent;
-    style.ScaleAllSizes(scale);
-}
-
 }  // namespace
 
-Window::Window(const WindowOptions& options) {
-    if (glfwInit() == GLFW_FALSE) {
+struct Window::Library {
+    Library() {
+        if (glfwInit() == GLFW_TRUE) return;
         throw std::runtime_error("window: cannot be opened: " + glfwProblem() +
                                  ": needs an X11 or Wayland display (is DISPLAY set?)");
     }
-    try {
-        openContext(options);
-        listen();
-        startInterface();
-    } catch (...) {
-        if (window_ != nullptr) glfwDestroyWindow(window_);
-        glfwTerminate();
-        throw;
-    }
+    ~Library() { glfwTerminate(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+};
+
+void Window::Destroy::operator()(GLFWwindow* window) const {
+    glfwDestroyWindow(window);
+}
+
+Window::Window(const WindowOptions& options) : library_(std::make_shared<Library>()) {
+    open(options, nullptr);
+    listen();
+    startInterface();
+}
+
+Window::Window(const WindowOptions& options, const Window& first) : library_(first.library_) {
+    const bool firstHadFocus = first.focused();
+    open(options, &first);
+    listen();
+    startInterface();
+    if (firstHadFocus) glfwFocusWindow(first.window_.get());
 }
 
 Window::~Window() {
+    makeCurrent();
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
-    glfwDestroyWindow(window_);
-    glfwTerminate();
+    ImGui::DestroyContext(interface_);
 }
 
-void Window::openContext(const WindowOptions& options) {
+void Window::open(const WindowOptions& options, const Window* first) {
+    glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SAMPLES, 0);
     glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
+    int width = options.widthPx, height = options.heightPx;
     GLFWmonitor* monitor = options.fullscreen ? glfwGetPrimaryMonitor() : nullptr;
-    const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
-    // The current mode, so that a full screen never resamples by changing it.
-    window_ = glfwCreateWindow(mode ? mode->width : options.widthPx,
-                               mode ? mode->height : options.heightPx, "Stairwell study", monitor,
-                               nullptr);
+    if (const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor)) {
+        // The current mode, so that a full screen never resamples by changing it.
+        width = mode->width;
+        height = mode->height;
+    }
+    std::optional<DesktopRect> place;
+    if (first != nullptr) {
+        for (const int hint : {GLFW_VISIBLE, GLFW_FOCUSED, GLFW_FOCUS_ON_SHOW}) {
+            glfwWindowHint(hint, GLFW_FALSE);
+        }
+        const std::vector<DesktopRect> areas = workAreas();
+        if (!areas.empty()) {
+            place = placeBeside(desktopRect(first->window_.get()), areas, width, height);
+            width = place->width;
+            height = place->height;
+        }
+    }
+    window_.reset(glfwCreateWindow(width, height, options.title, monitor,
+                                   first == nullptr ? nullptr : first->window_.get()));
     if (window_ == nullptr) {
         throw std::runtime_error("window: cannot be opened: " + glfwProblem() +
                                  ": needs OpenGL 3.3");
     }
-    glfwMakeContextCurrent(window_);
-    glfwSwapInterval(1);
+    glfwMakeContextCurrent(window_.get());
+    glfwSwapInterval(first == nullptr ? 1 : 0);
     glDisable(GL_DITHER);
     glDisable(GL_FRAMEBUFFER_SRGB);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    if (place) glfwSetWindowPos(window_.get(), place->x, place->y);
+    if (first != nullptr) glfwShowWindow(window_.get());
     float x = 1, y = 1;
-    glfwGetWindowContentScale(window_, &x, &y);
+    glfwGetWindowContentScale(window_.get(), &x, &y);
     uiScale_ = options.uiScale ? static_cast<float>(*options.uiScale) : std::max(1.0f, x);
 }
 
 void Window::listen() {
-    glfwSetWindowUserPointer(window_, &input_);
-    glfwSetKeyCallback(window_, onKey);
-    glfwSetMouseButtonCallback(window_, onMouseButton);
-    glfwSetWindowFocusCallback(window_, onFocus);
-    glfwSetWindowIconifyCallback(window_, onIconify);
-    glfwSetFramebufferSizeCallback(window_, onFramebufferSize);
-    glfwSetWindowCloseCallback(window_, onClose);
+    GLFWwindow* window = window_.get();
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, onKey);
+    glfwSetCharCallback(window, onCharacter);
+    glfwSetMouseButtonCallback(window, onMouseButton);
+    glfwSetScrollCallback(window, onScroll);
+    glfwSetCursorEnterCallback(window, onCursorEnter);
+    glfwSetCursorPosCallback(window, onCursorMove);
+    glfwSetWindowFocusCallback(window, onFocus);
+    glfwSetWindowIconifyCallback(window, onIconify);
+    glfwSetFramebufferSizeCallback(window, onFramebufferSize);
+    glfwSetWindowRefreshCallback(window, onRefresh);
+    glfwSetWindowCloseCallback(window, onClose);
+    monitors_ = connectedMonitors();
 }
 
 void Window::startInterface() {
     IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
+    interface_ = ImGui::CreateContext();
+    ImGui::SetCurrentContext(interface_);
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;  // a study leaves no files that it was not asked for
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     setStyle(uiScale_);
-    loadFonts();
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the listeners above first
+    fonts_ = loadFonts(uiScale_, notices_);
+    ImGui_ImplGlfw_InitForOpenGL(window_.get(), false);  // the listeners above tell it
     ImGui_ImplOpenGL3_Init("#version 330 core");
-}
-
-void Window::loadFonts() {
-    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    // Latin and Greek letters, dashes and arrows.
-    static constexpr ImWchar ranges[] = {0x20,   0x17f,  0x391,  0x3c9,  0x2010, 0x2026,
-                                         0x2190, 0x2193, 0x2212, 0x2212, 0};
-    const auto load = [&](const char* name, float px) -> ImFont* {
-        const std::filesystem::path file = std::filesystem::path(kFontFolder) / name;
-        if (!std::filesystem::exists(file)) {
-            notices_.push_back(file.string() +
-                               ": is missing: text is drawn with a built-in bitmap font "
-                               "(package fonts-dejavu-core)");
-            ImFontConfig config;
-            config.SizePixels = std::round(px * uiScale_);
-            return atlas.AddFontDefault(&config);
-        }
-        return atlas.AddFontFromFileTTF(file.c_str(), std::round(px * uiScale_), nullptr, ranges);
-    };
-    fonts_.text = load("DejaVuSans.ttf", kTextPx);
-    fonts_.heading = load("DejaVuSans.ttf", kHeadingPx);
-    fonts_.small = load("DejaVuSans.ttf", kSmallPx);
 }
 
 double Window::now() {
@@ -249,9 +239,26 @@ void Window::waitForEvents(double seconds) {
     } else {
         glfwWaitEventsTimeout(seconds);
     }
+    noteUnpluggedMonitors();
+}
+
+void Window::noteUnpluggedMonitors() {
+    const std::vector<GLFWmonitor*> now = connectedMonitors();
+    if (now == monitors_) return;
+    const bool allThere = std::ranges::all_of(monitors_, [&](GLFWmonitor* monitor) {
+        return std::ranges::find(now, monitor) != now.end();
+    });
+    if (!allThere) input_.disturbance = "a display was unplugged";
+    monitors_ = now;
+}
+
+void Window::makeCurrent() const {
+    glfwMakeContextCurrent(window_.get());
+    ImGui::SetCurrentContext(interface_);
 }
 
 void Window::beginFrame(int greyCode) {
+    makeCurrent();
     const float grey = static_cast<float>(greyCode) / 255;
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, widthPx(), heightPx());
@@ -271,25 +278,25 @@ void Window::renderInterface() {
 
 double Window::endFrame() {
     if (!interfaceDrawn_) renderInterface();
-    glfwSwapBuffers(window_);
+    glfwSwapBuffers(window_.get());
     glFinish();
     return now();
 }
 
 int Window::widthPx() const {
     int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
+    glfwGetFramebufferSize(window_.get(), &width, &height);
     return width;
 }
 
 int Window::heightPx() const {
     int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
+    glfwGetFramebufferSize(window_.get(), &width, &height);
     return height;
 }
 
 bool Window::focused() const {
-    return glfwGetWindowAttrib(window_, GLFW_FOCUSED) == GLFW_TRUE;
+    return glfwGetWindowAttrib(window_.get(), GLFW_FOCUSED) == GLFW_TRUE;
 }
 
 void Window::showCursor(bool shown) {
@@ -302,47 +309,21 @@ void Window::showCursor(bool shown) {
     } else {
         io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
     }
-    glfwSetInputMode(window_, GLFW_CURSOR, shown ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_HIDDEN);
+    glfwSetInputMode(window_.get(), GLFW_CURSOR, shown ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_HIDDEN);
 }
 
 DisplayState Window::displayState() const {
-    DisplayState state{.framebufferWidthPx = widthPx(), .framebufferHeightPx = heightPx()};
-    glfwGetWindowSize(window_, &state.windowWidth, &state.windowHeight);
-    float x = 1, y = 1;
-    glfwGetWindowContentScale(window_, &x, &y);
-    state.contentScale = x;
-    GLFWmonitor* monitor = monitorOf(window_);
-    const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
-    if (mode == nullptr) return state;
-    state.modeWidthPx = state.nativeWidthPx = mode->width;
-    state.modeHeightPx = state.nativeHeightPx = mode->height;
-    state.bitsPerChannel = std::min({mode->redBits, mode->greenBits, mode->blueBits});
-    int count = 0;
-    const GLFWvidmode* modes = glfwGetVideoModes(monitor, &count);
-    for (int i = 0; i < count; ++i) {
-        if (modes[i].width * modes[i].height <= state.nativeWidthPx * state.nativeHeightPx)
-            continue;
-        state.nativeWidthPx = modes[i].width;
-        state.nativeHeightPx = modes[i].height;
-    }
-    return state;
+    return displayStateOf(window_.get());
 }
 
 DisplayProfile Window::monitor() const {
-    DisplayProfile profile{.name = "unknown display", .widthPx = widthPx(), .heightPx = heightPx()};
-    GLFWmonitor* monitor = monitorOf(window_);
-    const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
-    if (mode == nullptr) return profile;
-    const char* name = glfwGetMonitorName(monitor);
-    if (name != nullptr && *name != '\0') profile.name = name;
-    profile.widthPx = mode->width;
-    profile.heightPx = mode->height;
-    return profile;
+    return displayProfileOf(window_.get());
 }
 
 std::string Window::glRenderer() const {
     return glText(GL_RENDERER);
 }
+
 std::string Window::glVersion() const {
     return glText(GL_VERSION);
 }

@@ -11,16 +11,18 @@
 // Codes reach the framebuffer as they are: no sRGB conversion, dithering or multisampling.
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "study_app/viewing_geometry.h"
+#include "study_app/window_style.h"
 
+struct GLFWmonitor;
 struct GLFWwindow;
-struct ImFont;
+struct ImGuiContext;
 
 namespace study_app {
 
@@ -28,6 +30,7 @@ struct WindowOptions {
     int widthPx = 1280, heightPx = 800;
     bool fullscreen = false;
     std::optional<double> uiScale;  ///< of text and controls; the desktop's where absent
+    const char* title = "Stairwell study";
 };
 
 /// What happened since the last clear(), in order.
@@ -43,23 +46,24 @@ struct Input {
     /// Why a stimulus on screen was not seen as it should be; empty where it was.
     std::string disturbance;
     bool closeRequested = false;
+    bool exposed = false;  ///< part of it was hidden or lost, and is to be drawn again
+    bool any = false;      ///< anything at all, the mouse over it included
 
     void clear() {
         presses.clear();
         disturbance.clear();
+        exposed = any = false;
     }
-};
-
-struct Fonts {
-    ImFont* text = nullptr;
-    ImFont* heading = nullptr;
-    ImFont* small = nullptr;
 };
 
 class Window {
   public:
     /// Throws std::runtime_error: no display, no OpenGL 3.3.
     explicit Window(const WindowOptions& options);
+    /// A second window, for someone else than the first one's observer: on another monitor or where
+    /// it hides least of the first one. It does not take the keyboard away from it, its swaps do
+    /// not wait for the display, and it must not outlive it.
+    Window(const WindowOptions& options, const Window& first);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -67,11 +71,13 @@ class Window {
     /// Seconds of a clock that never goes back.
     static double now();
 
-    /// Sleeps until an event comes or the time is over; 0 looks without sleeping.
+    /// Sleeps until an event comes, to any window, or the time is over; 0 looks without sleeping.
     void waitForEvents(double seconds);
     Input& input() { return input_; }
 
-    /// Clears to a grey and starts an ImGui frame.
+    /// OpenGL and ImGui calls mean this window from here on.
+    void makeCurrent() const;
+    /// makeCurrent(), clears to a grey and starts an ImGui frame.
     void beginFrame(int greyCode);
     /// Draws ImGui's part and swaps. Returns the time at which the swap was done (glFinish after
     /// it: the frame has left the program; the display adds its own delay, the same every time).
@@ -97,12 +103,21 @@ class Window {
     cv::Mat readPixels() const;
 
   private:
-    void openContext(const WindowOptions& options);
+    friend struct Listener;
+    struct Library;  // GLFW itself, up as long as there is a window
+    struct Destroy {
+        void operator()(GLFWwindow* window) const;
+    };
+
+    void open(const WindowOptions& options, const Window* first);
     void listen();
     void startInterface();
-    void loadFonts();
+    void noteUnpluggedMonitors();
 
-    GLFWwindow* window_ = nullptr;
+    std::shared_ptr<Library> library_;
+    std::unique_ptr<GLFWwindow, Destroy> window_;
+    ImGuiContext* interface_ = nullptr;
+    std::vector<GLFWmonitor*> monitors_;
     Input input_;
     Fonts fonts_;
     float uiScale_ = 1;

@@ -32,7 +32,13 @@ std::vector<std::string> addWindowOptions(CLI::App& app, WindowArguments& a) {
         app.add_option("--screenshots", a.screenshots, "Folder for a picture of every screen"),
         app.add_flag("--verify-pixels", a.verifyPixels,
                      "Read back every stimulus and compare its codes, not only the first"),
-        app.add_flag("--robot", a.robot, "A robot observer answers, by the pixels it is shown"),
+        app.add_option("--robot", a.robot,
+                       "A robot observer answers by the pixels it is shown, so many seconds after "
+                       "each stimulus (default: 0.2)")
+            ->expected(0, 1)
+            ->default_str("0.2")
+            ->check(CLI::Range(0.0, 60.0)),
+        app.add_flag("--panel", a.panel, "Open the experimenter's window too (as F2 does)"),
         app.add_option("--event-log", a.eventLog,
                        "File that gets a line for every screen, stimulus and row"),
         app.add_flag("--timing", a.timing,
@@ -63,7 +69,8 @@ void apply(const WindowArguments& a, WindowRun& run) {
     run.startAtOnce = a.start;
     run.verifyPixels = a.verifyPixels;
     run.eventLog = a.eventLog;
-    run.robot = a.robot;
+    run.robotAnswerS = a.robot;
+    run.panel = a.panel;
     run.printTiming = a.timing;
     run.window.fullscreen = a.fullscreen;
     run.window.uiScale = a.uiScale;

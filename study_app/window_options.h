@@ -16,9 +16,9 @@ namespace study_app {
 struct WindowArguments {
     std::string age, gender, expertise, task, presentation, instructions, displays, screenshots,
         eventLog;
-    std::optional<double> uiScale;
+    std::optional<double> uiScale, robot;
     std::vector<int> size;
-    bool start = false, fullscreen = false, verifyPixels = false, robot = false, timing = false;
+    bool start = false, fullscreen = false, verifyPixels = false, timing = false, panel = false;
 };
 
 /// Adds the options in a group of their own and returns their names, for a mode that refuses them.

@@ -3,9 +3,11 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
@@ -13,6 +15,7 @@
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 namespace tests {
@@ -26,6 +29,7 @@ struct Spawn {
     std::vector<std::string> arguments;
     std::string display{};
     int out = -1, error = -1;  // descriptors that become standard output and error
+    std::map<std::string, std::string> environment{};
 };
 
 pid_t spawn(const Spawn& what) {
@@ -43,6 +47,8 @@ pid_t spawn(const Spawn& what) {
     const std::string options =
         std::string(sanitizer == nullptr ? "" : sanitizer) + ":detect_leaks=0";
     ::setenv("ASAN_OPTIONS", options.c_str(), 1);
+    for (const auto& [name, value] : what.environment) ::setenv(name.c_str(), value.c_str(), 1);
+    ::signal(SIGXFSZ, SIG_IGN);  // of limitFileSize(): a write fails instead
     if (what.out >= 0) ::dup2(what.out, 1);
     if (what.error >= 0) ::dup2(what.error, 2);
     ::execvp(argv[0], argv.data());
@@ -90,7 +96,8 @@ XServer::~XServer() {
 }
 
 WindowPerson::WindowPerson(const XServer& server, const std::filesystem::path& folder,
-                           std::vector<std::string> arguments)
+                           std::vector<std::string> arguments,
+                           const std::map<std::string, std::string>& environment)
     : display_(server.display()), log_(folder / "events.log"), errors_(folder / "errors.txt") {
     std::filesystem::remove(log_);
     arguments.insert(arguments.begin(), std::string(STAIRWELL_BIN_DIR) + "/study_app");
@@ -100,7 +107,11 @@ WindowPerson::WindowPerson(const XServer& server, const std::filesystem::path& f
         arguments.push_back(more);
     }
     const int errors = ::open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    process_ = spawn({.arguments = arguments, .display = display_, .out = errors, .error = errors});
+    process_ = spawn({.arguments = arguments,
+                      .display = display_,
+                      .out = errors,
+                      .error = errors,
+                      .environment = environment});
     ::close(errors);
 }
 
@@ -182,14 +193,24 @@ std::string WindowPerson::waitFor(const std::string& beginning) {
     throw std::runtime_error("no event '" + beginning + "' came");
 }
 
-void WindowPerson::xdotool(const std::vector<std::string>& arguments) {
-    std::vector<std::string> command{"xdotool"};
+void WindowPerson::limitFileSize(std::uintmax_t bytes) {
+    const rlimit limit{.rlim_cur = bytes, .rlim_max = RLIM_INFINITY};
+    if (::prlimit(process_, RLIMIT_FSIZE, &limit, nullptr) != 0) {
+        throw std::system_error(errno, std::generic_category(), "prlimit");
+    }
+}
+
+void WindowPerson::onDisplay(const std::string& tool, const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{tool};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    const pid_t process = spawn({.arguments = command, .display = display_});
+    const int quiet = ::open("/dev/null", O_WRONLY);
+    const pid_t process = spawn({.arguments = command, .display = display_, .out = quiet});
+    ::close(quiet);
     int status = 0;
     ::waitpid(process, &status, 0);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        throw std::runtime_error("xdotool " + arguments.front() + ": failed (package xdotool)");
+        throw std::runtime_error(tool + " " + arguments.front() +
+                                 ": failed (packages xdotool, x11-xserver-utils)");
     }
 }
 

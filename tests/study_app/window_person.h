@@ -6,7 +6,9 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,7 +34,8 @@ class WindowPerson {
   public:
     /// Starts study_app with the arguments; its files besides the data go into `folder`.
     WindowPerson(const XServer& server, const std::filesystem::path& folder,
-                 std::vector<std::string> arguments);
+                 std::vector<std::string> arguments,
+                 const std::map<std::string, std::string>& environment = {});
     ~WindowPerson();  ///< kills it where it still runs
     WindowPerson(const WindowPerson&) = delete;
     WindowPerson& operator=(const WindowPerson&) = delete;
@@ -44,13 +47,17 @@ class WindowPerson {
     std::string nextEvent() { return waitFor(""); }
 
     void press(const std::string& keys);  ///< as xdotool names them, separated by blanks
-    void xdotool(const std::vector<std::string>& arguments);
+    void xdotool(const std::vector<std::string>& arguments) { onDisplay("xdotool", arguments); }
+    /// Runs a tool of X on its display.
+    void onDisplay(const std::string& tool, const std::vector<std::string>& arguments);
     std::string window();  ///< its id
 
     void kill();  ///< at once, as a power cut would
     /// kill() from another thread, in the middle of whatever goes on then.
     void killAfter(std::chrono::microseconds time);
-    bool killed() const;                      ///< and nothing else ended it
+    bool killed() const;  ///< and nothing else ended it
+    /// The disk is full for any file of more bytes than this.
+    void limitFileSize(std::uintmax_t bytes);
     int exitCode();                           ///< waits for its end, at most 30 s
     std::vector<std::string> events() const;  ///< the whole log so far
     std::string errors() const;

@@ -115,50 +115,6 @@ TEST_F(WindowSession, PausesQuitsAndResumesWhereItWas) {
     EXPECT_TRUE(study_app::replayTable(table()).session.finished());
 }
 
-TEST_F(WindowSession, MashingKeysGivesOneAnswerPerTrial) {
-    WindowPerson person(server_, folder_.path(), arguments(R"({"blank_s": 0.3, "fixation_s": 0.2,
-        "too_fast_s": 0, "break_every_trials": 0, "practice": {"correct": 0}})"));
-    agree(person);
-    person.press("Left Right Left");  // before anything is on screen
-    person.waitFor("stimulus 1");
-    person.press("Right Left Left Right");
-    person.waitFor("stimulus 2");
-    const auto recorded = rows();
-    ASSERT_EQ(recorded.size(), 1u);
-    EXPECT_EQ(recorded[0].response, records::Response::right);
-}
-
-TEST_F(WindowSession, MarksWhatIsTooFastToBeAnAnswer) {
-    WindowPerson person(server_, folder_.path(), arguments(R"({"blank_s": 0.02, "fixation_s": 0.05,
-        "too_fast_s": 2, "break_every_trials": 0, "practice": {"correct": 0}})"));
-    agree(person);
-    EXPECT_EQ(answer(person, "left"), "row 1 too_fast");
-    EXPECT_EQ(answer(person, "left"), "row 2 too_fast");
-    EXPECT_EQ(rows()[0].condition, rows()[1].condition);
-}
-
-TEST_F(WindowSession, RepeatsATrialInWhichTheWindowWasDisturbed) {
-    WindowPerson person(server_, folder_.path(), arguments());
-    agree(person);
-    person.waitFor("stimulus");
-    person.xdotool({"windowsize", person.window(), "1000", "700"});
-    person.waitFor("screen pause");
-    EXPECT_EQ(person.waitFor("row"), "row 1 repeated");
-    person.press("Return");
-    EXPECT_EQ(answer(person, "left"), "row 2 ok");
-}
-
-TEST_F(WindowSession, DoesNotShowStimuliThatTheWindowCannotHold) {
-    auto with = arguments();
-    with.insert(with.end(), {"--window-size", "500", "400"});
-    WindowPerson person(server_, folder_.path(), with);
-    agree(person);
-    person.waitFor("screen pause");
-    person.xdotool({"windowsize", person.window(), "700", "400"});
-    person.press("Return");
-    EXPECT_EQ(answer(person, "left"), "row 1 ok");
-}
-
 /// The largest radius, on a grid of 3 %, at which the robot still notices a condition's artifact,
 /// from the stimulus images alone.
 double noticedUpTo(const study_app::Design& design, const study_app::Condition& condition) {
@@ -184,7 +140,7 @@ TEST_F(WindowSession, ARobotThatSeesOnlyPixelsHasTheThresholdsOfTheStimuli) {
         "too_fast_s": 0, "feedback_s": 0, "break_every_trials": 0})");
     WindowPerson person(server_, folder_.path(),
                         {"--design", "quick", "--data", data(), "--participant", "01", "--seed",
-                         "3", "--robot", "--presentation", pace});
+                         "3", "--robot", "0", "--presentation", pace});
     person.waitFor("screen end");
     EXPECT_EQ(person.exitCode(), 0) << person.errors();
     const study_app::Session session = study_app::replayTable(table()).session;
@@ -208,19 +164,6 @@ TEST_F(WindowSession, WaitsWithoutUsingTheProcessor) {
     ::usleep(2000000);
     // Less than 5 % of a core, whatever else the machine does: it is the program's own time.
     EXPECT_LT(person.processorSeconds() - before, 0.1);
-}
-
-TEST(WindowProgram, SaysWhatIsMissingInOneSentence) {
-    const TemporaryFolder folder;
-    ::unsetenv("DISPLAY");
-    ::unsetenv("WAYLAND_DISPLAY");
-    const CommandResult noDisplay = runProgram("study_app", {"--data", folder.path().string()});
-    EXPECT_EQ(noDisplay.exitCode, 1);
-    EXPECT_THAT(noDisplay.err, testing::HasSubstr("DISPLAY"));
-    const XServer server;
-    WindowPerson person(server, folder.path(), {"--start", "--data", folder.path().string()});
-    EXPECT_EQ(person.exitCode(), 1);
-    EXPECT_THAT(person.errors(), testing::HasSubstr("Give the participant an id"));
 }
 
 }  // namespace
