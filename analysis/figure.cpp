@@ -44,7 +44,7 @@ std::string scriptOf(const Figure& figure) {
         << "} else {\n"
         << "set terminal pdfcairo size " << figure.widthPx / kPxPerInch << ','
         << figure.heightPx / kPxPerInch
-        << " enhanced font 'Helvetica,13' fontscale 0.55 lw 1.2 background '#ffffff'\n"
+        << " enhanced font 'Helvetica,13' fontscale 0.5 lw 1.2 background '#ffffff'\n"
         << "}\n"
         << "set output '" << figure.name << ".'.format\n"
         << "set border 3 lc rgb '" << kInk << "' lw 0.8\n"

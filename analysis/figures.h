@@ -26,5 +26,17 @@ std::optional<Figure> referenceComparison(const SlopeAnalysis& analysis,
 std::optional<Figure> slopeAgainstLight(const SlopeAnalysis& analysis);
 /// Every group's c with its interval, the overall slope and the headline.
 Figure slopesByGroup(const SlopeAnalysis& analysis);
+/// Every observer's c with its interval (two observers or more).
+std::optional<Figure> slopesByObserver(const SlopeAnalysis& analysis);
+/// Answers in bins of r/a with the fitted curve: a panel per condition, or per group where there
+/// are many conditions.
+Figure psychometricFunctions(const SlopeAnalysis& analysis);
+/// Radius from trial to trial, of observers and conditions that are evenly spaced in rank.
+Figure staircaseTraces(const SlopeAnalysis& analysis);
+/// Thresholds of single observers over those of the fit, against the artifact size.
+std::optional<Figure> residualsAgainstSize(const SlopeAnalysis& analysis);
+/// Lines of equal display value at the threshold, with the artifact and without it (the paper's
+/// Fig. 2), of each pattern.
+std::optional<Figure> isoContours(const SlopeAnalysis& analysis);
 
 }  // namespace analysis

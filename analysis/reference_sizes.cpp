@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 
+}  // namespace
+
 // A step whose angle is known has its riser spacing: tan(angle) = a / L.
 std::optional<stimulus::SilhouetteOptions> silhouetteOf(const Group& group,
                                                         const Condition& condition) {
@@ -26,14 +28,16 @@ std::optional<stimulus::SilhouetteOptions> silhouetteOf(const Group& group,
             options.riserSpacingPx = std::round(condition.artifactPx /
                                                 std::tan(*condition.angleDeg * kRadiansPerDegree));
             return options;
-        case records::Pattern::line:  // seconds each: see the header
+        case records::Pattern::line:
+            if (!angled) return std::nullopt;
+            options.pattern = stimulus::Pattern::line;
+            options.angleDeg = *condition.angleDeg;
+            return options;
         case records::Pattern::frame:
             return std::nullopt;
     }
     return std::nullopt;
 }
-
-}  // namespace
 
 ReferenceSizes referenceSizes(const Study& study) {
     const auto kernel = stimulus::kernelShapeFromText(study.kernel);
@@ -42,6 +46,7 @@ ReferenceSizes referenceSizes(const Study& study) {
     ReferenceSizes sizes;
     for (const Condition& condition : study.conditions) {
         const Group& group = study.groups[condition.group];
+        if (group.pattern == records::Pattern::line) continue;  // seconds each: see the header
         const auto silhouette = silhouetteOf(group, condition);
         if (!silhouette || !kernel) continue;
         const stimulus::ReferenceOptions options{.silhouette = *silhouette,

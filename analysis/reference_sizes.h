@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analysis/study.h"
+#include "stimulus/silhouette.h"
 
 namespace analysis {
 
@@ -19,6 +20,11 @@ struct ReferenceSize {
     std::optional<double> halfCode;  ///< R1/2, screen px; absent where it is not reached
     std::optional<double> oneCode;   ///< R1
 };
+
+/// The outlines that a condition shows; nothing where the table does not give what they take (a
+/// step's or line's angle), or for frames of a renderer.
+std::optional<stimulus::SilhouetteOptions> silhouetteOf(const Group& group,
+                                                        const Condition& condition);
 
 /// By group name and artifact size, so that a part of the study finds its own.
 using ReferenceSizes = std::map<std::pair<std::string, double>, ReferenceSize>;

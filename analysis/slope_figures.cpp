@@ -7,11 +7,14 @@
 #include "analysis/figures.h"
 #include "analysis/gnuplot.h"
 #include "analysis/number_text.h"
+#include "analysis/observer_slopes.h"
 
 namespace analysis {
 namespace {
 
-constexpr std::size_t kMostRows = 60;
+constexpr std::size_t kMostRows = 60;        // of groups, and of observers with their names
+constexpr std::size_t kMostObservers = 400;  // beyond: evenly spaced
+constexpr double kNormal95 = 1.959963984540054;
 
 double c(double log10c) {
     return std::pow(10.0, log10c);
@@ -22,14 +25,15 @@ struct Line {
     std::string name;
     double value = 0;
     std::optional<records::Interval> ci95;
-    std::size_t style = 0;  // 0 single, 1 summary
+    std::size_t style = 0;              // 0 single, 1 summary
+    std::optional<double> second = {};  // drawn hollow
 };
 
 // Rows from the top, on a logarithmic axis, with the published slope as a vertical line.
 Figure forest(std::string name, std::string caption, const std::vector<Line>& lines,
               const std::string& axis, bool named) {
     double low = kPublishedSlope, high = kPublishedSlope;
-    std::ostringstream rows[2], tics;
+    std::ostringstream rows[2], second, tics;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const double row = static_cast<double>(lines.size() - i);
         const Line& line = lines[i];
@@ -38,6 +42,7 @@ Figure forest(std::string name, std::string caption, const std::vector<Line>& li
         low = std::min(low, from);
         high = std::max(high, to);
         rows[line.style] << c(line.value) << ' ' << row << ' ' << from << ' ' << to << '\n';
+        if (line.second) second << c(*line.second) << ' ' << row << '\n';
         if (named || line.style == 1) {
             tics << (tics.tellp() > 0 ? ", " : "") << quotedForGnuplot(line.name) << ' ' << row;
         }
@@ -62,6 +67,10 @@ Figure forest(std::string name, std::string caption, const std::vector<Line>& li
              << " lw " << (rowPx < 10 ? 0.7 : 1.4) << " lc rgb '" << seriesColour(0) << "'";
         separator = ", \\\n     ";
     }
+    if (second.tellp() > 0) {
+        plot << separator << "$second using 1:2 with points pt 6 ps " << (rowPx < 10 ? 0.3 : 0.6)
+             << " lw 1.2 lc rgb '" << kInk << "'";
+    }
     if (rows[1].tellp() > 0) {
         plot << separator << "$summary using 1:2:3:4 with xerrorbars pt 13 ps 1.2 lw 1.8 lc rgb '"
              << seriesColour(1) << "'";
@@ -71,7 +80,8 @@ Figure forest(std::string name, std::string caption, const std::vector<Line>& li
             .caption = std::move(caption),
             .widthPx = 760,
             .heightPx = 120 + rowPx * static_cast<int>(lines.size()),
-            .data = dataBlock("single", rows[0].str()) + dataBlock("summary", rows[1].str()),
+            .data = dataBlock("single", rows[0].str()) + dataBlock("second", second.str()) +
+                    dataBlock("summary", rows[1].str()),
             .plot = plot.str()};
 }
 
@@ -81,7 +91,7 @@ Figure slopesByGroup(const SlopeAnalysis& analysis) {
     std::vector<Line> lines;
     for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
         const LinearEstimate& own = analysis.groups[g].c;
-        lines.push_back({analysis.study.groups[g].name, own.value, own.ci95(), 0});
+        lines.push_back({analysis.study.groups[g].name, own.value, own.ci95(), 0, {}});
     }
     std::string chosen;
     if (lines.size() > kMostRows) {
@@ -92,17 +102,55 @@ Figure slopesByGroup(const SlopeAnalysis& analysis) {
         lines.resize(kMostRows);
     }
     if (analysis.groups.size() > 1) {
-        lines.push_back({"geometric mean", analysis.overall.value, analysis.overall.ci95(), 1});
+        lines.push_back({"geometric mean", analysis.overall.value, analysis.overall.ci95(), 1, {}});
     }
     const WorstGroup& headline = analysis.slope.headline;
-    lines.push_back({"headline", headline.value, headline.ci95, 1});
-    lines.push_back({"90th percentile", headline.value90, headline.ci95For90, 1});
+    lines.push_back({"headline", headline.value, headline.ci95, 1, {}});
+    lines.push_back({"90th percentile", headline.value90, headline.ci95For90, 1, {}});
     return forest("slopes_by_group",
                   "Slope c of every group with its 95 % interval, on a logarithmic scale; the "
                   "geometric mean over groups; the headline (the worst group, its interval "
                   "accounting for the choice) for the mean and for the 90th-percentile observer." +
                       chosen,
                   lines, "slope c = r/a", true);
+}
+
+std::optional<Figure> slopesByObserver(const SlopeAnalysis& analysis) {
+    const std::vector<ObserverSlope> slopes = observerSlopes(analysis);
+    if (slopes.size() < 2) return std::nullopt;
+    std::vector<std::size_t> order = observersByRisingSlope(slopes);
+    std::reverse(order.begin(), order.end());
+    const WorstGroup& headline = analysis.slope.headline;
+    std::vector<Line> lines;
+    for (const std::size_t at : evenlySpaced(order.size(), kMostObservers)) {
+        const ObserverSlope& slope = slopes[order[at]];
+        const double shrunken = headline.value + slope.shrunken;
+        Line line{.name = analysis.study.observers[order[at]].id,
+                  .value = headline.value + slope.own.value_or(slope.shrunken),
+                  .ci95 = {},
+                  .style = 0,
+                  .second = shrunken};
+        if (slope.own) {
+            const double half = kNormal95 * slope.standardError;
+            line.ci95 = records::Interval{line.value - half, line.value + half};
+        }
+        lines.push_back(std::move(line));
+    }
+    const bool named = lines.size() <= kMostRows;
+    std::string caption =
+        "Each observer's c in the worst group, " + analysis.slope.worstGroup +
+        ". Filled: from the observer's own thresholds in all conditions, with 95 % interval "
+        "(answers and conditions, not other people); hollow: as the one-stage fit has it, drawn "
+        "towards the mean observer. Below: the mean and the 90th-percentile observer, with the "
+        "intervals of the headline.";
+    if (!named) caption += " Observers by falling c, without names: observers.tsv has them.";
+    if (lines.size() < order.size()) {
+        caption += " Drawn are " + std::to_string(lines.size()) + " of " +
+                   std::to_string(order.size()) + ", evenly spaced in rank.";
+    }
+    lines.push_back({"mean observer", headline.value, headline.ci95, 1, {}});
+    lines.push_back({"90th percentile", headline.value90, headline.ci95For90, 1, {}});
+    return forest("slopes_by_observer", caption, lines, "slope c = r/a in the worst group", named);
 }
 
 }  // namespace analysis

@@ -19,7 +19,12 @@ std::vector<Figure> figuresOf(const SlopeAnalysis& analysis, const ReferenceSize
     };
     add(referenceComparison(analysis, reference));
     add(slopeAgainstLight(analysis));
+    add(isoContours(analysis));
     add(slopesByGroup(analysis));
+    add(slopesByObserver(analysis));
+    add(psychometricFunctions(analysis));
+    add(staircaseTraces(analysis));
+    add(residualsAgainstSize(analysis));
     return figures;
 }
 
