@@ -154,18 +154,31 @@ void testTheLaw(const Study& study, double criterion, const MatrixXd& design, co
     result.lawRejected = result.kappaTest->pValue < kLawLevel && result.sizeFit->converged;
 }
 
+// What the headline is the largest of: the groups' slopes, or where the law was rejected those at
+// the measured sizes. log10 c at size a = log10 c at a0 + (kappa - 1) log10(a/a0), a condition's
+// row of the design.
+MatrixXd headlineTargets(const Study& study, const SlopeResult& result) {
+    const auto n = static_cast<Index>(study.groups.size());
+    return result.lawRejected ? *sizeExponentDesign(study) : MatrixXd::Identity(n, n);
+}
+
+const RandomObserverFit& headlineFit(const SlopeResult& result) {
+    return result.lawRejected ? *result.sizeFit : result.law;
+}
+
 void chooseHeadline(const Study& study, std::uint64_t seed, SlopeResult& result) {
-    if (!result.lawRejected) {
-        const auto n = static_cast<Index>(study.groups.size());
-        result.headline = worstGroup(result.law, MatrixXd::Identity(n, n), seed);
-        result.worstGroup = study.groups[static_cast<std::size_t>(result.headline.index)].name;
-        return;
+    result.headline = worstGroup(headlineFit(result), headlineTargets(study, result), seed);
+    auto group = static_cast<std::size_t>(result.headline.index);
+    if (result.lawRejected) {
+        const Condition& worst = study.conditions[group];
+        group = worst.group;
+        result.worstArtifactPx = worst.artifactPx;
     }
-    // log10 c at size a = log10 c at a0 + (kappa - 1) log10(a/a0): a condition's row of the design.
-    result.headline = worstGroup(*result.sizeFit, *sizeExponentDesign(study), seed);
-    const Condition& worst = study.conditions[static_cast<std::size_t>(result.headline.index)];
-    result.worstGroup = study.groups[worst.group].name;
-    result.worstArtifactPx = worst.artifactPx;
+    result.worstGroup = study.groups[group].name;
+    const std::vector<records::Pattern> patterns = betaPatterns(study);
+    result.betaIndex = static_cast<std::size_t>(
+        std::find(patterns.begin(), patterns.end(), study.groups[group].pattern) -
+        patterns.begin());
 }
 
 // `plain` is filled where the test of the law needed it.
@@ -271,6 +284,25 @@ void includeEveryone(const Study& all, SlopeAnalysis& result) {
     }
 }
 
+void checkTheModel(SlopeAnalysis& result) {
+    const Study& study = result.study;
+    const double criterion = result.options.criterion;
+    // Where the law bends, sizes that it does not fit are no sign of a wrong curve.
+    const RandomObserverFit& fit = headlineFit(result.slope);
+    const Model model = slopeModel(
+        study, result.slope.lawRejected ? *sizeExponentDesign(study) : perGroupDesign(study),
+        criterion);
+    if (fit.converged) {
+        result.secondHalf = secondHalfShift(study, model, fit);
+        result.fitCheck = checkFit(study, model, fit);
+    }
+    std::string why;
+    result.staircases = compareStaircases(study, result.thresholds, criterion, why);
+    if (!result.staircases) {
+        result.absent.push_back("comparison with the staircases' own thresholds: " + why);
+    }
+}
+
 void compare(const Study& all, std::optional<RandomObserverFit> plain, SlopeAnalysis& result,
              StageTimes* times) {
     const Study& study = result.study;
@@ -301,6 +333,22 @@ void compare(const Study& all, std::optional<RandomObserverFit> plain, SlopeAnal
     lap(times, "pooled fit");
     includeEveryone(all, result);
     lap(times, "with everyone");
+    checkTheModel(result);
+    lap(times, "checks of the model");
+    const SlopeResult& slope = result.slope;
+    result.betas = betaAnalysis(study, slope.law);
+    if (headlineFit(slope).converged) {
+        result.audience =
+            audienceCurve(headlineFit(slope), slope.headline, slope.betaIndex, criterion);
+    }
+    if (result.options.bootstrap > 0) {
+        const MatrixXd design = slope.lawRejected ? *sizeExponentDesign(study) : law.design;
+        result.bootstrap = bootstrapObservers(
+            slopeModel(study, design, criterion), headlineFit(slope), headlineTargets(study, slope),
+            slope.headline, result.options.bootstrap, result.options.seed, result.options.threads,
+            result.options.bootstrapDone);
+        lap(times, "bootstrap");
+    }
 }
 
 void nameAbsences(SlopeAnalysis& result) {

@@ -9,11 +9,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/audience_curve.h"
+#include "analysis/beta_analysis.h"
+#include "analysis/lack_of_fit.h"
 #include "analysis/line_fits.h"
+#include "analysis/observer_bootstrap.h"
 #include "analysis/pooled_fit.h"
 #include "analysis/random_observer_fit.h"
 #include "analysis/screening.h"
@@ -32,6 +37,9 @@ struct AnalysisOptions {
     std::uint64_t seed = kBootstrapSeed;  ///< of the parametric bootstrap
     /// Off: headline, groups, overall and the test of the law alone, for simulations.
     bool comparisons = true;
+    int bootstrap = 0;                         ///< draws of observers; 0: none
+    int threads = 0;                           ///< as in parallel.h; no result depends on it
+    std::function<void()> bootstrapDone = {};  ///< after each draw, from several threads
 };
 
 struct GroupResult {
@@ -64,6 +72,7 @@ struct SlopeResult {
     bool lawRejected = false;
     WorstGroup headline;
     std::string worstGroup;                 ///< its name
+    std::size_t betaIndex = 0;              ///< of its pattern, in betaPatterns(study)
     std::optional<double> worstArtifactPx;  ///< where the law was rejected: the size it belongs to
 };
 
@@ -87,6 +96,12 @@ struct SlopeAnalysis {
     std::optional<RatioTest> equalGroupsTest;        ///< absent with one group
     std::optional<LinearEstimate> contrastExponent;  ///< e; absent with one lit level
     std::optional<PooledFit> pooled;
+    std::optional<ObserverMean> secondHalf;  ///< shift of log10 c; absent with a trial per cell
+    FitCheck fitCheck;                       ///< overdispersion, residuals
+    std::optional<StaircaseComparison> staircases;
+    std::vector<BetaEstimate> betas;             ///< per pattern
+    std::optional<AudienceCurve> audience;       ///< of the worst group
+    std::optional<ObserverBootstrap> bootstrap;  ///< where it was asked for
     /// With the observers that screening excluded; absent where it excluded nobody.
     std::optional<SlopeResult> everyone;
 };

@@ -27,23 +27,6 @@ Index index(std::size_t i) {
     return static_cast<Index>(i);
 }
 
-CellTrials cellTrials(const Cell& cell, double artifactPx) {
-    CellTrials trials;
-    for (const bool yes : {true, false}) {
-        for (const StudyTrial& trial : cell.trials) {
-            if (trial.yes == yes) {
-                trials.strength.push_back(std::log10(artifactPx / trial.radiusPx));
-            }
-        }
-        if (yes) trials.yesCount = trials.strength.size();
-    }
-    // Sorted, so that the order of the rows does not move the last digit.
-    const auto middle = trials.strength.begin() + static_cast<std::ptrdiff_t>(trials.yesCount);
-    std::sort(trials.strength.begin(), middle);
-    std::sort(middle, trials.strength.end());
-    return trials;
-}
-
 // Pooled answers of the conditions for which `belongs` is true.
 template <typename Belongs>
 GroupCheck check(const Study& study, double criterion, const std::string& name, Belongs belongs) {
@@ -55,9 +38,10 @@ GroupCheck check(const Study& study, double criterion, const std::string& name, 
         for (const Cell& cell : observer.cells) {
             if (!belongs(cell.condition)) continue;
             const double a = study.conditions[cell.condition].artifactPx;
-            cells.emplace_back(cellTrials(cell, a), Curve{.beta = kStartBeta,
-                                                          .criterion = criterion,
-                                                          .response = {gamma, kStartLapse, gamma}});
+            cells.emplace_back(cellTrials(cell.trials, a),
+                               Curve{.beta = kStartBeta,
+                                     .criterion = criterion,
+                                     .response = {gamma, kStartLapse, gamma}});
             for (const StudyTrial& trial : cell.trials) {
                 shown.insert(std::log10(trial.radiusPx / a));
                 if (!trial.catchTrial) placed.insert(std::log10(trial.radiusPx / a));
@@ -100,6 +84,23 @@ GroupCheck check(const Study& study, double criterion, const std::string& name, 
 }
 
 }  // namespace
+
+CellTrials cellTrials(std::span<const StudyTrial> of, double artifactPx) {
+    CellTrials trials;
+    for (const bool yes : {true, false}) {
+        for (const StudyTrial& trial : of) {
+            if (trial.yes == yes) {
+                trials.strength.push_back(std::log10(artifactPx / trial.radiusPx));
+            }
+        }
+        if (yes) trials.yesCount = trials.strength.size();
+    }
+    // Sorted, so that the order of the rows does not move the last digit.
+    const auto middle = trials.strength.begin() + static_cast<std::ptrdiff_t>(trials.yesCount);
+    std::sort(trials.strength.begin(), middle);
+    std::sort(middle, trials.strength.end());
+    return trials;
+}
 
 MatrixXd perGroupDesign(const Study& study) {
     MatrixXd design = MatrixXd::Zero(index(study.conditions.size()), index(study.groups.size()));
@@ -153,16 +154,22 @@ std::optional<MatrixXd> contrastDesign(const Study& study) {
     return design;
 }
 
+std::vector<records::Pattern> betaPatterns(const Study& study) {
+    std::set<records::Pattern> patterns;
+    for (const Group& group : study.groups) patterns.insert(group.pattern);
+    return {patterns.begin(), patterns.end()};
+}
+
 Model slopeModel(const Study& study, MatrixXd design, double criterion) {
     Model model;
     model.design = std::move(design);
     model.criterion = criterion;
-    std::map<records::Pattern, int> patterns;
-    for (const Group& group : study.groups) patterns.insert({group.pattern, 0});
-    model.betaCount = 0;
-    for (auto& [pattern, at] : patterns) at = model.betaCount++;
+    const std::vector<records::Pattern> patterns = betaPatterns(study);
+    model.betaCount = static_cast<int>(patterns.size());
     for (const Condition& condition : study.conditions) {
-        model.betaIndex.push_back(patterns[study.groups[condition.group].pattern]);
+        const auto at =
+            std::find(patterns.begin(), patterns.end(), study.groups[condition.group].pattern);
+        model.betaIndex.push_back(static_cast<int>(at - patterns.begin()));
     }
     for (const Observer& observer : study.observers) {
         const double gamma = guessingRate(observer, study.task);
@@ -170,7 +177,7 @@ Model slopeModel(const Study& study, MatrixXd design, double criterion) {
         for (const Cell& cell : observer.cells) {
             modelled.cells.push_back(
                 {static_cast<int>(cell.condition),
-                 cellTrials(cell, study.conditions[cell.condition].artifactPx)});
+                 cellTrials(cell.trials, study.conditions[cell.condition].artifactPx)});
         }
         model.observers.push_back(std::move(modelled));
     }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,13 @@ Eigen::MatrixXd perConditionDesign(const Study& study);
 /// log10 c at full white per pattern (angle), and last the exponent e of c(C) = c C^e. Absent where
 /// no pattern has two lit levels.
 std::optional<Eigen::MatrixXd> contrastDesign(const Study& study);
+
+/// The trials of a cell as the likelihood takes them.
+CellTrials cellTrials(std::span<const StudyTrial> trials, double artifactPx);
+
+/// The patterns of the study, each with a psychometric slope of its own: index j is the model's
+/// beta j.
+std::vector<records::Pattern> betaPatterns(const Study& study);
 
 /// The model with that design. The psychometric slope is one per pattern. Yes/no: gamma and the
 /// guess on a lapse are the observer's shrunk false-alarm rate.

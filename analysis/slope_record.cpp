@@ -9,17 +9,9 @@ namespace analysis {
 namespace {
 
 // The psychometric slope that goes with the headline: that of its pattern.
-double betaOfWorst(const SlopeAnalysis& analysis) {
-    const Study& study = analysis.study;
-    const RandomObserverFit& fit =
-        analysis.slope.lawRejected ? *analysis.slope.sizeFit : analysis.slope.law;
-    const Model model = slopeModel(study, perGroupDesign(study), analysis.options.criterion);
-    for (std::size_t k = 0; k < study.conditions.size(); ++k) {
-        if (study.groups[study.conditions[k].group].name == analysis.slope.worstGroup) {
-            return fit.parameters.beta[static_cast<std::size_t>(model.betaIndex[k])];
-        }
-    }
-    return fit.parameters.beta.front();
+double betaOfWorst(const SlopeResult& slope) {
+    const RandomObserverFit& fit = slope.lawRejected ? *slope.sizeFit : slope.law;
+    return fit.parameters.beta[slope.betaIndex];
 }
 
 }  // namespace
@@ -37,7 +29,7 @@ records::Slope slopeRecord(const SlopeAnalysis& analysis, const records::RunCont
         .task = study.task,
         .kernel = study.kernel,
         .encoding = study.encoding,
-        .beta = betaOfWorst(analysis),
+        .beta = betaOfWorst(slope),
         .observerSd = slope.law.parameters.tau,
         .observerConditionSd = slope.law.parameters.omega,
         .kappa = {.estimate = 1, .ci95 = {}},

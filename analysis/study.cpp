@@ -82,6 +82,8 @@ class LeftOut {
 struct Gathered {
     struct Person {
         std::map<ConditionKey, std::vector<StudyTrial>> cells;
+        // Last posterior means of x0 by staircase (of a session).
+        std::map<ConditionKey, std::map<std::string, double>> staircases;
         int references = 0, falseAlarms = 0, catchTrials = 0, catchFailures = 0;
     };
     std::map<std::string, Person> people;
@@ -134,6 +136,10 @@ void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& n
                                      .proposedPx = trial.proposedRadiusPx,
                                      .yes = yes,
                                      .catchTrial = catchTrial});
+        if (trial.staircase && trial.thresholdMean) {
+            person.staircases[key][table.session.value_or("") + "/" + *trial.staircase] =
+                *trial.thresholdMean;
+        }
         if (trial.angleDeg) into.angles[key].insert(*trial.angleDeg);
     }
     leftOut.report(table.file.string(), notices);
@@ -151,6 +157,13 @@ void refuseTwice(std::span<const TrialTable> tables) {
                                      ": two observers must not share an id");
         }
     }
+}
+
+std::optional<double> meanSlope(const std::map<std::string, double>& thresholds) {
+    if (thresholds.empty()) return std::nullopt;
+    double sum = 0;
+    for (const auto& [staircase, threshold] : thresholds) sum -= threshold;
+    return sum / static_cast<double>(thresholds.size());
 }
 
 Study indexed(Gathered&& gathered) {
@@ -194,23 +207,32 @@ Study indexed(Gathered&& gathered) {
                           .catchTrials = person.catchTrials,
                           .catchFailures = person.catchFailures};
         for (auto& [key, trials] : person.cells) {
-            observer.cells.push_back({conditionIndex[key], std::move(trials)});
+            observer.cells.push_back({.condition = conditionIndex[key],
+                                      .trials = std::move(trials),
+                                      .staircaseLog10c = meanSlope(person.staircases[key])});
         }
         study.observers.push_back(std::move(observer));
     }
     return study;
 }
 
-std::optional<double> meanPxPerDeg(std::span<const std::filesystem::path> tables) {
+// What the sidecars say, as far as every table has one.
+void addFromSidecars(Study& study) {
     double sum = 0;
-    for (const std::filesystem::path& table : tables) {
-        const std::filesystem::path sidecar = records::sidecarPath(table);
-        if (!std::filesystem::exists(sidecar)) return std::nullopt;
-        const auto pxPerDeg = records::readSidecar(sidecar).pxPerDeg;
-        if (!pxPerDeg) return std::nullopt;
-        sum += *pxPerDeg;
+    bool everyGeometry = true;
+    std::vector<StaircaseTerms> terms;
+    for (const std::filesystem::path& table : study.files) {
+        const std::filesystem::path file = records::sidecarPath(table);
+        if (!std::filesystem::exists(file)) return;
+        const records::SessionSidecar sidecar = records::readSidecar(file);
+        everyGeometry = everyGeometry && sidecar.pxPerDeg;
+        sum += sidecar.pxPerDeg.value_or(0);
+        terms.push_back({sidecar.criterion, sidecar.beta});
     }
-    return sum / static_cast<double>(tables.size());
+    if (everyGeometry) study.pxPerDeg = sum / static_cast<double>(study.files.size());
+    const bool equal = std::all_of(terms.begin(), terms.end(),
+                                   [&](const StaircaseTerms& one) { return one == terms.front(); });
+    if (equal) study.staircases = terms.front();
 }
 
 }  // namespace
@@ -252,7 +274,7 @@ Study loadStudy(std::span<const std::filesystem::path> paths) {
     std::vector<TrialTable> tables;
     for (const auto& [canonical, file] : files) tables.push_back(records::readTrialTable(file));
     Study study = studyOf(tables);
-    study.pxPerDeg = meanPxPerDeg(study.files);
+    addFromSidecars(study);
     return study;
 }
 

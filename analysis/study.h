@@ -42,6 +42,9 @@ struct StudyTrial {
 struct Cell {
     std::size_t condition = 0;       ///< index into Study::conditions
     std::vector<StudyTrial> trials;  ///< at least one, in file order
+    /// By the staircases that placed them: minus the last posterior mean of x0 in the table, at the
+    /// staircases' own criterion (Study::staircases); mean over them where there are several.
+    std::optional<double> staircaseLog10c = {};
 };
 
 struct Observer {
@@ -52,6 +55,13 @@ struct Observer {
     int catchTrials = 0, catchFailures = 0;  ///< 2AFC
 };
 
+/// What the staircases assumed.
+struct StaircaseTerms {
+    double criterion = 0;  ///< F* of the threshold that they looked for
+    double beta = 0;
+    bool operator==(const StaircaseTerms&) const = default;
+};
+
 struct Study {
     std::vector<Group> groups;          ///< by pattern, angle, falling lit level
     std::vector<Condition> conditions;  ///< by group, artifact size
@@ -60,6 +70,7 @@ struct Study {
     std::string kernel;
     std::optional<records::Encoding> encoding;  ///< absent where no table says it
     std::optional<double> pxPerDeg;             ///< mean over sessions, where every sidecar has it
+    std::optional<StaircaseTerms> staircases;   ///< where every sidecar says the same
     std::vector<std::filesystem::path> files;
     std::vector<std::string> notices;  ///< what was left out, and why
 };
