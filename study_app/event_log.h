@@ -4,6 +4,7 @@
 //
 //   screen trials
 //   stimulus 12 left       // or "practice ...": the trial's number and the right answer
+//   place 12               // "seen" waits for a click on the artifact
 //   row 12 ok              // on disk
 //   problem study: ...     // what the screen says went wrong
 #pragma once
@@ -27,6 +28,7 @@ class EventLog {
     void screen(const std::string& name) { line("screen " + name); }
     void problem(const std::string& sentence) { line("problem " + sentence); }
     void stimulus(const records::Trial& trial, bool practice);
+    void place(const records::Trial& trial) { line("place " + std::to_string(trial.number)); }
     /// The rows that are new since the last call; fewer than then: another session has begun.
     void rows(const std::vector<records::Trial>& rows);
 

@@ -52,8 +52,9 @@ Instructions readInstructions(const fs::path& file) {
     return blocks;
 }
 
-fs::path shippedInstructions(records::Task task) {
-    const std::string name = std::string(records::toText(task)) + ".txt";
+fs::path shippedInstructions(const Design& design) {
+    const std::string name =
+        design.localise ? "localise.txt" : std::string(records::toText(design.task)) + ".txt";
     std::string searched;
     for (const fs::path& designs : designFolders()) {
         const fs::path file = designs.parent_path() / "instructions" / name;

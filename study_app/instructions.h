@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "records/trial_table.h"
+#include "study_app/design.h"
 
 namespace study_app {
 
@@ -28,8 +28,9 @@ Instructions parseInstructions(std::string_view text);
 /// Throws std::runtime_error where the file cannot be read or holds nothing to read.
 Instructions readInstructions(const std::filesystem::path& file);
 
-/// The shipped text for a task, instructions/2afc.txt or instructions/yes_no.txt beside the shipped
-/// designs. Throws std::runtime_error naming the places searched.
-std::filesystem::path shippedInstructions(records::Task task);
+/// The shipped text for a design's task: instructions/2afc.txt, yes_no.txt, or localise.txt where
+/// yes is a click, beside the shipped designs. Throws std::runtime_error naming the places
+/// searched.
+std::filesystem::path shippedInstructions(const Design& design);
 
 }  // namespace study_app

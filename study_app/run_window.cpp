@@ -42,6 +42,8 @@ class StudyWindow {
     void handleInput(double now);
     void handlePress(const Input::Press& press, double now);
     void pressInTrials(const Input::Press& press, double now);
+    bool localises() const;
+    void locate(const Input::Click& click, double now);
     void pressOffTrials(int key, double now);
     void handleDisturbance();
     void tick(double now);
@@ -102,13 +104,13 @@ StudyWindow::StudyWindow(const WindowRun& run)
         if (setup.problem.empty()) leaveSetup(Window::now());
         if (!setup.problem.empty()) throw std::runtime_error(setup.problem);
         if (state_.flow.screen == Screen::calibration) act(Request::next, Window::now());
-    } else {
-        log_.screen(toText(state_.flow.screen));
     }
     if (run.panel) panel_.toggle();
 }
 
 void StudyWindow::run() {
+    draw();
+    if (state_.flow.screen == Screen::setup) log_.screen(toText(Screen::setup));
     while (state_.flow.screen != Screen::closed) {
         window_.waitForEvents(idleSeconds(Window::now()));
         const double now = Window::now();
@@ -145,6 +147,10 @@ void StudyWindow::actAsRobot(double now) {
     if (const auto side = robot_->press(now)) {
         const int key = *side == Side::left ? GLFW_KEY_LEFT : GLFW_KEY_RIGHT;
         window_.input().presses.push_back({.key = key});
+    } else if (state_.answering() && state_.runner->phase() == TrialPhase::place) {
+        // Every edge passes near the middle.
+        const Input::Click middle{window_.widthPx() / 2.0, window_.heightPx() / 2.0};
+        window_.input().presses.push_back({.key = GLFW_KEY_UNKNOWN, .click = middle});
     } else if (!state_.answering() && framesWanted_ == 0) {
         window_.input().presses.push_back({.key = GLFW_KEY_ENTER});
     }
@@ -196,6 +202,7 @@ void StudyWindow::pressInTrials(const Input::Press& press, double now) {
         case GLFW_KEY_RIGHT:
             return answer(Side::right);
         case GLFW_KEY_UNKNOWN:
+            if (localises()) return locate(press.click, now);
             return answer(press.click.xPx < window_.widthPx() / 2.0 ? Side::left : Side::right);
         case GLFW_KEY_ESCAPE:
         case GLFW_KEY_P:
@@ -207,6 +214,20 @@ void StudyWindow::pressInTrials(const Input::Press& press, double now) {
         default:
             return;
     }
+}
+
+bool StudyWindow::localises() const {
+    return state_.runner->session().design().localise;
+}
+
+/// A click beside the image says nothing.
+void StudyWindow::locate(const Input::Click& click, double now) {
+    const Design& design = state_.runner->session().design();
+    const cv::Point at = stimulusOrigin(window_, stimulusArea(design.task, design.windowPx));
+    const Place place{click.xPx - at.x, click.yPx - at.y};
+    const auto inside = [&](double px) { return px >= 0 && px <= design.windowPx; };
+    if (!inside(place.xPx) || !inside(place.yPx)) return;
+    if (const auto event = state_.runner->locate(place, now)) actOnEvent(*event, now);
 }
 
 void StudyWindow::pressOffTrials(int key, double now) {
@@ -239,7 +260,7 @@ void StudyWindow::draw() {
     // nothing.
     if (!stimuli || newStimulus || framesWanted_ > 0) {
         framesWanted_ = std::max(0, framesWanted_ - 1);
-        window_.showCursor(!stimuli);
+        window_.showCursor(!stimuli || localises());
         window_.beginFrame(stimuli ? state_.runner->presentation().backgroundCode : kPageGrey);
         std::vector<PlacedImage> images;
         const std::optional<Request> request = drawScreen({window_, now, returnPressed_, images});
@@ -349,6 +370,8 @@ void StudyWindow::actOnEvent(RunnerEvent event, double now) {
         case RunnerEvent::nextTrial:
         case RunnerEvent::feedback:
             return;
+        case RunnerEvent::placeWanted:
+            return log_.place(state_.runner->trial());
         case RunnerEvent::practiceOver:
             state_.practiceOver = true;
             return log_.screen("practice-over");
@@ -435,9 +458,8 @@ void StudyWindow::leaveSetup(double now) {
     lookUp(setup);
     if (!setup.problem.empty()) return;
     try {
-        state_.instructions =
-            readInstructions(run_.instructions.empty() ? shippedInstructions(setup.design->task)
-                                                       : run_.instructions);
+        state_.instructions = readInstructions(
+            run_.instructions.empty() ? shippedInstructions(*setup.design) : run_.instructions);
         if (setup.existing.state == ExistingSession::State::finished) {
             state_.runner = startSession(state_, run_.context);
             state_.resultsShown = true;

@@ -15,9 +15,9 @@ constexpr int kGapPx = 40;  // between the two edges of a pair
 
 std::vector<PlacedImage> placed(const Page& page, const cv::Mat& left, const cv::Mat& right) {
     const int width = left.cols + (right.empty() ? 0 : kGapPx + right.cols);
-    const int x = (page.window.widthPx() - width) / 2, y = (page.window.heightPx() - left.rows) / 2;
-    std::vector<PlacedImage> images{{left, x, y}};
-    if (!right.empty()) images.push_back({right, x + left.cols + kGapPx, y});
+    const cv::Point at = stimulusOrigin(page.window, {width, left.rows});
+    std::vector<PlacedImage> images{{left, at.x, at.y}};
+    if (!right.empty()) images.push_back({right, at.x + left.cols + kGapPx, at.y});
     return images;
 }
 
@@ -52,7 +52,9 @@ void drawLine(const Page& page, const std::string& text, float y, ImU32 color, I
 }
 
 std::string hint(const SessionRunner& runner) {
-    const bool pair = runner.session().design().task == records::Task::twoAfc;
+    const Design& design = runner.session().design();
+    if (design.localise) return "←  no steps      ·      click on the steps";
+    const bool pair = design.task == records::Task::twoAfc;
     return pair ? "←  steps on the left      ·      steps on the right  →"
                 : "←  no steps      ·      steps  →";
 }
@@ -84,12 +86,18 @@ cv::Size stimulusArea(records::Task task, int windowPx) {
     return {task == records::Task::twoAfc ? 2 * windowPx + kGapPx : windowPx, windowPx};
 }
 
+cv::Point stimulusOrigin(const Window& window, cv::Size area) {
+    return {(window.widthPx() - area.width) / 2, (window.heightPx() - area.height) / 2};
+}
+
 void drawStimuli(AppState& state, const Page& page) {
     SessionRunner& runner = *state.runner;
     const TrialPhase phase = runner.phase();
     const Design& design = runner.session().design();
     const auto& fonts = page.window.fonts();
-    if (runner.stimulusDue(page.now) || phase == TrialPhase::stimulus) {
+    const bool place = phase == TrialPhase::place;
+    const bool stimulus = runner.stimulusDue(page.now) || phase == TrialPhase::stimulus || place;
+    if (stimulus) {
         const TrialImages& images = runner.images();
         for (PlacedImage& image : placed(page, images.left, images.right)) {
             page.images.push_back(std::move(image));
@@ -107,13 +115,16 @@ void drawStimuli(AppState& state, const Page& page) {
     }
     const auto h = static_cast<float>(page.window.heightPx());
     const ImU32 quiet = IM_COL32(175, 175, 178, 255);
-    if (phase != TrialPhase::stimulus && !runner.stimulusDue(page.now)) {
+    if (place) {
+        drawLine(page, "Click where you see the steps.", page.px(30), quiet, fonts.text);
+    } else if (!stimulus) {
         drawLine(page, messageOf(state), page.px(30), IM_COL32(240, 196, 120, 255), fonts.text);
     }
     if (runner.stage() == SessionRunner::Stage::practice) {
         drawLine(page, practiceText(runner), h - page.px(38), quiet, fonts.small);
-        drawLine(page, hint(runner), page.px(30) + (messageOf(state).empty() ? 0 : page.px(26)),
-                 quiet, fonts.text);
+        if (!place)
+            drawLine(page, hint(runner), page.px(30) + (messageOf(state).empty() ? 0 : page.px(26)),
+                     quiet, fonts.text);
     } else {
         drawProgress(page, runner);
     }

@@ -56,5 +56,7 @@ void drawPanel(const AppState& state, const Page& page);
 
 /// The part of the window that a stimulus of this task needs, px.
 cv::Size stimulusArea(records::Task task, int windowPx);
+/// Where it begins, in framebuffer pixels from the top left: in the middle.
+cv::Point stimulusOrigin(const Window& window, cv::Size area);
 
 }  // namespace study_app

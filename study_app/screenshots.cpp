@@ -22,6 +22,8 @@ const char* phaseName(TrialPhase phase) {
             return "fixation";
         case TrialPhase::stimulus:
             return "stimulus";
+        case TrialPhase::place:
+            return "place";
         case TrialPhase::feedback:
             return "feedback";
     }

@@ -104,6 +104,23 @@ void SessionRunner::shown(double now) {
 
 std::optional<RunnerEvent> SessionRunner::answer(Side side, double now) {
     const auto outcome = clock_.answer(responseFor(side, session().design().task), now);
+    if (!outcome) return {};
+    const bool seen =
+        outcome->response == Response::seen && outcome->status == records::TrialStatus::ok;
+    if (seen && session().design().localise) {
+        clock_.askForPlace(*outcome);
+        return RunnerEvent::placeWanted;
+    }
+    return take(*outcome, now);
+}
+
+std::optional<RunnerEvent> SessionRunner::locate(const Place& place, double now) {
+    if (!session().design().localise) return {};
+    if (clock_.phase() == TrialPhase::stimulus) {
+        const auto event = answer(Side::right, now);
+        if (event != RunnerEvent::placeWanted) return event;
+    }
+    const auto outcome = clock_.locate(place);
     return outcome ? take(*outcome, now) : std::nullopt;
 }
 
@@ -139,6 +156,10 @@ std::optional<RunnerEvent> SessionRunner::record(const Outcome& outcome) {
                   .onsetS = toMicroseconds(outcome.onset - sessionStart_),
                   .status = outcome.status};
     if (outcome.responseTimeS) answer.responseTimeS = toMicroseconds(*outcome.responseTimeS);
+    if (outcome.place) {
+        answer.clickXPx = outcome.place->xPx;
+        answer.clickYPx = outcome.place->yPx;
+    }
     try {
         recorded_->answer(answer);
     } catch (const std::runtime_error& error) {

@@ -27,8 +27,9 @@
 namespace study_app {
 
 enum class RunnerEvent {
-    nextTrial,  ///< a trial has ended, the blank before the next one is on
-    feedback,   ///< right or wrong is shown
+    nextTrial,    ///< a trial has ended, the blank before the next one is on
+    placeWanted,  ///< "seen" is to be followed by locate()
+    feedback,     ///< right or wrong is shown
     breakDue,
     practiceOver,   ///< its rule is met
     practiceStuck,  ///< enough tried in vain
@@ -75,6 +76,9 @@ class SessionRunner {
     bool stimulusDue(double now) const { return clock_.stimulusDue(now); }
     void shown(double now);
     std::optional<RunnerEvent> answer(Side side, double now);
+    /// Where the observer sees the artifact: after placeWanted, or as the answer "seen" itself. Of
+    /// no effect where the design does not localise.
+    std::optional<RunnerEvent> locate(const Place& place, double now);
     double secondsUntilChange(double now) const { return clock_.secondsUntilChange(now); }
 
     /// The trial that comes next or is on screen, and its codes.

@@ -45,15 +45,27 @@ std::optional<Outcome> TrialClock::answer(records::Response response, double now
     return outcome;
 }
 
+void TrialClock::askForPlace(const Outcome& answered) {
+    unplaced_ = answered;
+    phase_ = TrialPhase::place;
+}
+
+std::optional<Outcome> TrialClock::locate(const Place& place) {
+    if (phase_ != TrialPhase::place) return {};
+    phase_ = TrialPhase::idle;
+    unplaced_.place = place;
+    return unplaced_;
+}
+
 std::optional<Outcome> TrialClock::disturb() {
-    const bool wasOn = phase_ == TrialPhase::stimulus;
+    const bool wasOn = phase_ == TrialPhase::stimulus || phase_ == TrialPhase::place;
     const Outcome outcome = finish(records::TrialStatus::repeated);
     return wasOn ? std::optional(outcome) : std::nullopt;
 }
 
 Outcome TrialClock::finish(records::TrialStatus status) {
     phase_ = TrialPhase::idle;
-    return {.response = {}, .responseTimeS = {}, .onset = onset_, .status = status};
+    return {.response = {}, .responseTimeS = {}, .place = {}, .onset = onset_, .status = status};
 }
 
 void TrialClock::giveFeedback(double now) {
@@ -77,6 +89,7 @@ double TrialClock::secondsUntilChange(double now) const {
             break;
         case TrialPhase::feedback:
             return until(feedbackFrom_ + presentation_.feedbackS);
+        case TrialPhase::place:
         case TrialPhase::idle:
             break;
     }

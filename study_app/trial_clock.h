@@ -6,6 +6,7 @@
 //   - one answer per trial: what is pressed later is ignored
 //   - an answer earlier than tooFastS is kept, marked too_fast, and the trial comes again
 //   - a trial that runs out of time or is disturbed is marked repeated and comes again
+//   - where a place is asked for, the answer is held until it is given; the time is the answer's
 //
 //   clock.begin(now);
 //   if (clock.stimulusDue(now)) { draw; swap; clock.shown(timeOfSwap); }
@@ -20,13 +21,19 @@
 
 namespace study_app {
 
-enum class TrialPhase { idle, blank, fixation, stimulus, feedback };
+enum class TrialPhase { idle, blank, fixation, stimulus, place, feedback };
+
+/// On the image as shown, px from its left and upper edge.
+struct Place {
+    double xPx = 0, yPx = 0;
+};
 
 struct Outcome {
     /// Nothing where the trial ended without an answer.
     std::optional<records::Response> response;
     std::optional<double> responseTimeS;
-    double onset = 0;  ///< time of the swap that showed the stimulus
+    std::optional<Place> place;  ///< where the artifact was seen
+    double onset = 0;            ///< time of the swap that showed the stimulus
     records::TrialStatus status = records::TrialStatus::ok;
 };
 
@@ -48,6 +55,10 @@ class TrialClock {
     /// The stimulus came on screen.
     void shown(double now);
     std::optional<Outcome> answer(records::Response response, double now);
+    /// The stimulus stays until the place that belongs to this answer is given.
+    void askForPlace(const Outcome& answered);
+    /// The answer with its place; nothing where none was asked for.
+    std::optional<Outcome> locate(const Place& place);
     /// Focus lost, window resized, display unplugged, pause: an outcome where a stimulus was on.
     std::optional<Outcome> disturb();
     /// Feedback is shown before the next begin().
@@ -65,6 +76,7 @@ class TrialClock {
     Presentation presentation_;
     TrialPhase phase_ = TrialPhase::idle;
     double begun_ = 0, onset_ = 0, feedbackFrom_ = 0;
+    Outcome unplaced_;  // in the phase `place`
 };
 
 }  // namespace study_app

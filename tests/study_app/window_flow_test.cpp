@@ -120,6 +120,23 @@ TEST(TrialClock, TakesOneAnswerTimedFromTheSwap) {
     EXPECT_FALSE(clock.answer(Response::left, 1.8));
 }
 
+TEST(TrialClock, HoldsAnAnswerUntilItsPlaceIsGiven) {
+    TrialClock clock = shownAt(1);
+    const auto answered = clock.answer(Response::seen, 1.75);
+    clock.askForPlace(*answered);
+    EXPECT_TRUE(std::isinf(clock.secondsUntilChange(2)));
+    EXPECT_FALSE(clock.answer(Response::notSeen, 2));
+    const auto placed = clock.locate({.xPx = 3, .yPx = 4});
+    ASSERT_TRUE(placed);
+    EXPECT_EQ(placed->response, Response::seen);
+    EXPECT_DOUBLE_EQ(placed->responseTimeS.value(), 0.75);
+    EXPECT_EQ(placed->place->xPx, 3);
+    EXPECT_FALSE(clock.locate({}));
+    TrialClock disturbed = shownAt(1);
+    disturbed.askForPlace(*disturbed.answer(Response::seen, 1.75));
+    EXPECT_EQ(disturbed.disturb()->status, TrialStatus::repeated);
+}
+
 TEST(TrialClock, MarksWhatIsTooFast) {
     EXPECT_EQ(shownAt(1).answer(Response::left, 1.14)->status, TrialStatus::tooFast);
     EXPECT_EQ(shownAt(1).answer(Response::left, 1.16)->status, TrialStatus::ok);
@@ -244,10 +261,15 @@ TEST(Instructions, AreParagraphsHeadingsAndExamples) {
     EXPECT_EQ(blocks, expected);
 }
 
-TEST(Instructions, AreShippedForBothTasks) {
-    for (const auto task : {records::Task::twoAfc, records::Task::yesNo}) {
-        EXPECT_FALSE(readInstructions(shippedInstructions(task)).empty());
-    }
+TEST(Instructions, AreShippedForEveryTask) {
+    Design design;
+    EXPECT_FALSE(readInstructions(shippedInstructions(design)).empty());
+    design.task = records::Task::yesNo;
+    const auto keys = shippedInstructions(design);
+    EXPECT_FALSE(readInstructions(keys).empty());
+    design.localise = true;
+    EXPECT_NE(shippedInstructions(design), keys);
+    EXPECT_FALSE(readInstructions(shippedInstructions(design)).empty());
 }
 
 }  // namespace

@@ -111,8 +111,8 @@ void WindowKills::check(const WindowPerson& person) {
     }
     for (const std::string& event : person.events()) {
         if (!event.starts_with("row") || !event.ends_with("ok")) continue;
-        ++tally_.acknowledged;
         const auto number = static_cast<std::size_t>(numberIn(event));
+        if (number > before_.size()) ++tally_.acknowledged;  // the log begins with the old ones
         if (number > now.size()) ++tally_.lost;
     }
     before_ = now;

@@ -200,32 +200,36 @@ void WindowPerson::limitFileSize(std::uintmax_t bytes) {
     }
 }
 
+std::string WindowPerson::outputOf(const std::vector<std::string>& command) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(command.front() + ": no pipe");
+    const pid_t process = spawn({.arguments = command, .display = display_, .out = ends[1]});
+    ::close(ends[1]);
+    // A tool that waits for a window waits for ever once the program is gone.
+    int status = 0;
+    const auto start = std::chrono::steady_clock::now();
+    while (::waitpid(process, &status, WNOHANG) == 0) {
+        std::this_thread::sleep_for(1ms);
+        if (running() || std::chrono::steady_clock::now() - start < 1s) continue;
+        ::kill(process, SIGKILL);
+    }
+    const std::string output = readAll(ends[0]);
+    ::close(ends[0]);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return output;
+    throw std::runtime_error(command.front() + " " + command.at(1) +
+                             ": failed (packages xdotool, x11-xserver-utils)");
+}
+
 void WindowPerson::onDisplay(const std::string& tool, const std::vector<std::string>& arguments) {
     std::vector<std::string> command{tool};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    const int quiet = ::open("/dev/null", O_WRONLY);
-    const pid_t process = spawn({.arguments = command, .display = display_, .out = quiet});
-    ::close(quiet);
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        throw std::runtime_error(tool + " " + arguments.front() +
-                                 ": failed (packages xdotool, x11-xserver-utils)");
-    }
+    outputOf(command);
 }
 
 std::string WindowPerson::window() {
     if (!windowId_.empty()) return windowId_;
-    int ends[2];
-    if (::pipe(ends) != 0) throw std::runtime_error("xdotool: no pipe");
-    const pid_t process = spawn(
-        {.arguments = {"xdotool", "search", "--sync", "--onlyvisible", "--name", "Stairwell study"},
-         .display = display_,
-         .out = ends[1]});
-    ::close(ends[1]);
-    std::istringstream ids(readAll(ends[0]));
-    ::close(ends[0]);
-    ::waitpid(process, nullptr, 0);
+    std::istringstream ids(
+        outputOf({"xdotool", "search", "--sync", "--onlyvisible", "--name", "Stairwell study"}));
     ids >> windowId_;
     // Without a window manager nobody else gives it the focus.
     xdotool({"windowfocus", "--sync", windowId_});

@@ -65,6 +65,7 @@ class WindowPerson {
 
   private:
     bool running();
+    std::string outputOf(const std::vector<std::string>& command);
     pid_t process_ = -1;
     int exitCode_ = -1;
     std::string display_;

@@ -73,6 +73,45 @@ TEST_F(WindowSession, YesNoTaskTakesTheSameKeys) {
     for (const Trial& row : rows()) EXPECT_EQ(row.response, records::Response::notSeen);
 }
 
+TEST_F(WindowSession, AClickSaysWhereTheStepsAre) {
+    const auto with = arguments();
+    std::ifstream tiny(file("tiny.json"));
+    std::string design{std::istreambuf_iterator<char>(tiny), {}};
+    design.insert(design.rfind('}'), R"(, "task": "yes_no", "localise": true)");
+    write("tiny.json", design);
+    WindowPerson person(server_, folder_.path(), with);
+    agree(person);
+    const auto click = [&](int x, int y) {
+        person.xdotool({"mousemove", std::to_string(x), std::to_string(y), "click", "1"});
+    };
+    // The image has 240 x 240 pixels in the middle of 1280 x 800.
+    person.waitFor("stimulus");
+    click(300, 400);  // beside it
+    click(520 + 100, 280 + 31);
+    EXPECT_EQ(person.waitFor("row"), "row 1 ok");
+    person.waitFor("stimulus");
+    person.press("Right");
+    person.waitFor("place 2");
+    click(520 + 7, 280 + 200);
+    EXPECT_EQ(person.waitFor("row"), "row 2 ok");
+    EXPECT_EQ(answer(person, "left"), "row 3 ok");
+    person.waitFor("stimulus");
+    person.press("Right");
+    person.waitFor("place 4");
+    person.press("Escape");
+    EXPECT_EQ(person.waitFor("row"), "row 4 repeated");
+    const auto recorded = rows();
+    EXPECT_EQ(recorded[0].response, records::Response::seen);
+    EXPECT_EQ(recorded[0].clickXPx, 100);
+    EXPECT_EQ(recorded[0].clickYPx, 31);
+    EXPECT_EQ(recorded[1].clickXPx, 7);
+    EXPECT_EQ(recorded[1].clickYPx, 200);
+    EXPECT_EQ(recorded[2].response, records::Response::notSeen);
+    EXPECT_FALSE(recorded[2].clickXPx);
+    EXPECT_FALSE(recorded[3].response);
+    EXPECT_EQ(study_app::replayTable(table()).session.answered(), 3u);
+}
+
 TEST_F(WindowSession, BackspaceTakesTheLastAnswerBack) {
     WindowPerson person(server_, folder_.path(), arguments());
     agree(person);

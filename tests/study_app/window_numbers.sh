@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The numbers of the study's window, measured now on an X server of its own: window_numbers.sh BIN_FOLDER
+# `./run numbers` runs it. A robot answers that looks at the pixels alone.
+set -uo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." || exit 1
+bin=${1:?the folder of study_app}
+if [ -z "${STAIRWELL_XVFB-}" ]; then
+    STAIRWELL_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24' "$0" "$bin"
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+study() { # NAME ARGUMENT...: starts study_app in the background, its events in $work/NAME.log
+    local name=$1
+    shift
+    "$bin/study_app" --data "$work/$name" --participant 01 --seed 1 --displays "$work/displays.json" \
+        --event-log "$work/$name.log" "$@" >"$work/$name.out" 2>&1 &
+    app=$!
+}
+waitFor() { # NAME EVENT
+    until grep -q "^$2" "$work/$1.log" 2>/dev/null; do
+        kill -0 "$app" 2>/dev/null || { cat "$work/$1.out" >&2; exit 1; }
+        sleep 0.002
+    done
+}
+design() { # NAME WINDOW_PX TRIALS_PER_CONDITION FIELDS: a design without pauses or practice
+    cat >"$work/$1.json" <<JSON
+{"schema": {"name": "stairwell design", "major": 1, "minor": 0}, "name": "$1", "description": "for numbers",
+ "window_px": $2, "trials_per_condition": $3, $4,
+ "presentation": {"blank_s": 0, "fixation_s": 0, "too_fast_s": 0, "break_every_trials": 0, "practice": {"correct": 0}}}
+JSON
+}
+processorSeconds() { awk -v hertz="$(getconf CLK_TCK)" '{ print ($14 + $15) / hertz }' "/proc/$app/stat"; }
+percentOfACore() { # over 10 s
+    local before
+    before=$(processorSeconds)
+    sleep 10
+    awk -v a="$before" -v b="$(processorSeconds)" 'BEGIN { printf "%.1f %% of a core over 10 s\n", 10 * (b - a) }'
+}
+end() { kill "$app" 2>/dev/null && wait "$app" 2>/dev/null; }
+
+echo "start to the first screen, ms, five times (the first one may read the program from the disk):"
+for i in 1 2 3 4 5; do
+    began=$(date +%s%N)
+    study "start$i" --design paper16
+    waitFor "start$i" "screen setup"
+    printf '%s ' $((($(date +%s%N) - began) / 1000000))
+    end
+done
+echo
+
+printf '\nidle, set-up screen: '
+study setup --design paper16
+waitFor setup "screen setup"
+sleep 1
+percentOfACore
+end
+design idle 600 10 '"artifact_px": [20], "patterns": ["stair"]'
+study idle --design "$work/idle.json" --start --robot 60 # which does not answer as long as this takes
+waitFor idle "stimulus 1"
+sleep 1
+printf 'idle, stimulus on screen: '
+percentOfACore
+end
+
+# A second before each answer, as an observer who is quick.
+speed() { # NAME FIELDS
+    design "$1" 600 "${3:-50}" "$2"
+    study "$1" --design "$work/$1.json" --start --robot 1 --timing
+    wait "$app" || { cat "$work/$1.out" >&2; exit 1; }
+    printf '%-34s %s\n' "$4" "$(sed 's/.*pause: //' "$work/$1.out")"
+}
+printf '\nanswer to next stimulus, 2 x 600 x 600 px, answers after 1 s, no pause between:\n'
+speed stair '"artifact_px": [10, 30], "patterns": ["stair"]' 50 "stair"
+speed step '"artifact_px": [10, 30], "patterns": ["step"]' 50 "step"
+speed line '"artifact_px": [10, 30], "patterns": [{"pattern": "line", "angle_deg": 10}, {"pattern": "line", "angle_deg": 22.5}]' 25 "lines of 10 and 22.5 degrees"
+speed gauss '"artifact_px": [10, 30], "patterns": [{"pattern": "line", "angle_deg": 10}], "kernels": ["gaussian"]' 50 "line, gaussian"
+speed taps '"artifact_px": [10, 30], "patterns": ["stair"], "kernels": ["poisson16"]' 50 "stair, 16 turned taps"
+speed noise '"artifact_px": [10, 30], "patterns": ["stair"], "noise_levels": [4], "dither": true' 50 "stair, image noise and dither"
+
+printf '\nmemory (resident, MB) over 2,000 trials at 240 px:\n'
+design memory 240 1000 '"artifact_px": [10], "patterns": ["stair", "step"], "catch_share": 0, "radius_px": {"max": 120}'
+study memory --design "$work/memory.json" --start --robot 0
+for row in 200 1000 2000; do
+    waitFor memory "row $row "
+    printf 'after trial %d: %s\n' "$row" "$(awk '/^VmRSS/ { printf "%.1f", $2 / 1024 }' "/proc/$app/status")"
+done
+end
+
+printf '\na power cut at random moments:\n'
+STAIRWELL_KILLS=${STAIRWELL_KILLS:-200} "$bin/study_window_test" --gtest_filter='WindowKills*' | grep -E '^[0-9]+ kills|FAILED'
