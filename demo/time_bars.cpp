@@ -15,8 +15,8 @@ constexpr int kWidth = 860, kLabelWidth = 130, kBarWidth = 470, kRow = 26, kBar 
               kLegend = 30;
 
 // Okabe and Ito's colours, told apart by every reader; index is renderer::Pass.
-constexpr std::array<const char*, renderer::kPasses> kColours = {"#D55E00", "#999999", "#0072B2",
-                                                                 "#CCCCCC", "#009E73"};
+constexpr std::array<const char*, renderer::kPasses> kColours = {"#D55E00", "#E69F00", "#999999",
+                                                                 "#0072B2", "#CCCCCC", "#009E73"};
 
 std::string formatted(const char* format, double value) {
     char text[48];

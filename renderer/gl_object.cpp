@@ -18,14 +18,16 @@ void forgetEarlierErrors() {
     }
 }
 
-}  // namespace
-
-Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label) {
+Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height, int layers,
+                    std::string_view label) {
     GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    glCreateTextures(target, 1, &name);
     Texture texture(name);
     forgetEarlierErrors();
-    glTextureStorage2D(name, 1, internalFormat, width, height);
+    if (target == GL_TEXTURE_2D_ARRAY)
+        glTextureStorage3D(name, 1, internalFormat, width, height, layers);
+    else
+        glTextureStorage2D(name, 1, internalFormat, width, height);
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
         throw std::runtime_error(
             "texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
@@ -37,6 +39,16 @@ Texture makeTexture(GLenum internalFormat, int width, int height, std::string_vi
     glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     setLabel(GL_TEXTURE, name, label);
     return texture;
+}
+
+}  // namespace
+
+Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label) {
+    return makeStorage(GL_TEXTURE_2D, internalFormat, width, height, 1, label);
+}
+
+Texture makeTextureArray(GLenum internalFormat, int edge, int layers, std::string_view label) {
+    return makeStorage(GL_TEXTURE_2D_ARRAY, internalFormat, edge, edge, layers, label);
 }
 
 Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,

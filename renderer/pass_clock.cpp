@@ -14,6 +14,8 @@ std::string_view toText(Pass pass) {
     switch (pass) {
         case Pass::depth:
             return "depth";
+        case Pass::prefilter:
+            return "prefilter";
         case Pass::prepass:
             return "prepass";
         case Pass::lookup:

@@ -15,10 +15,10 @@
 
 namespace renderer {
 
-enum class Pass { depth, prepass, lookup, lit, demand };
-inline constexpr std::size_t kPasses = 5;
-inline constexpr std::array<Pass, kPasses> kAllPasses = {Pass::depth, Pass::prepass, Pass::lookup,
-                                                         Pass::lit, Pass::demand};
+enum class Pass { depth, prefilter, prepass, lookup, lit, demand };
+inline constexpr std::size_t kPasses = 6;
+inline constexpr std::array<Pass, kPasses> kAllPasses = {
+    Pass::depth, Pass::prefilter, Pass::prepass, Pass::lookup, Pass::lit, Pass::demand};
 std::string_view toText(Pass pass);
 
 using PassTimesMs =

@@ -56,6 +56,10 @@ FloatImage Renderer::readShadowMap() {
     return readFloats(map_, GL_DEPTH_COMPONENT, edge, edge, 1);
 }
 
+FloatImage Renderer::readFilteredMap() {
+    return mapFilter_.bytes() > 0 ? mapFilter_.read() : FloatImage();
+}
+
 FloatImage Renderer::readPositions() {
     FloatImage image = readFloats(positions_, GL_RGBA, widthPx_, heightPx_, 4);
     flipRows(image);

@@ -7,6 +7,8 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 
+#include "renderer/prefilter.h"
+
 namespace renderer {
 namespace {
 
@@ -87,7 +89,8 @@ f64::ShadowConstants toDouble(const f32::ShadowConstants& c) {
             glm::dvec4(c.towardsLight),
             glm::dvec4(c.map),
             glm::dvec4(c.kernel),
-            {glm::dvec4(c.parameters[0]), glm::dvec4(c.parameters[1])}};
+            {glm::dvec4(c.parameters[0]), glm::dvec4(c.parameters[1])},
+            glm::dvec4(c.prefilter)};
 }
 
 void FrameSettings::validate(const GlInfo& info) const {
@@ -103,7 +106,7 @@ void FrameSettings::validate(const GlInfo& info) const {
 
 Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
                    const ShaderLibrary& shaders)
-    : info_(info), shaders_(shaders) {
+    : info_(info), shaders_(shaders), mapFilter_(shaders) {
     depthProgram_ = makeProgram(shaders_, "passes/depth.vert", "passes/depth.frag", {});
     prepassProgram_ = makeProgram(shaders_, "passes/prepass.vert", "passes/prepass.frag", {});
     litProgram_ = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lit.frag", {});
@@ -210,7 +213,8 @@ std::size_t Renderer::targetBytes() const {
 
 std::size_t Renderer::mapBytes() const {
     return static_cast<std::size_t>(mapEdge_) * static_cast<std::size_t>(mapEdge_) *
-           static_cast<std::size_t>(bytesPerTexel(MapFormat::depth32f));
+               static_cast<std::size_t>(bytesPerTexel(MapFormat::depth32f)) +
+           mapFilter_.bytes();
 }
 
 std::size_t Renderer::triangles() const {
@@ -271,6 +275,8 @@ void Renderer::updateConstants(const FrameSettings& settings) {
                       static_cast<float>(settings.samplesPerPixelEdge), 0};
     shadow_.parameters[0] = glm::make_vec4(values.data());
     shadow_.parameters[1] = glm::make_vec4(values.data() + 4);
+    shadow_.prefilter = prefilterConstants(technique, values, settings.radiusUv,
+                                           settings.minRadiusUv, settings.resolution);
 
     fillUniformBlock(viewBlock_, view_);
     fillUniformBlock(shadowBlock_, shadow_);
@@ -281,14 +287,9 @@ void Renderer::updateConstants(const FrameSettings& settings) {
 const Program& Renderer::lookupProgram(const Technique& technique) {
     const auto row = static_cast<std::size_t>(&technique - techniques().data());
     Program& program = lookupPrograms_.at(row);
-    if (program.name() != 0) return program;
-    ShaderOptions options{.defines = {{"TECHNIQUE", std::string(technique.name)}},
-                          .substitutions = {{"technique", technique.shaderFile()}}};
-    for (std::size_t i = 0; i < technique.parameters.size(); ++i)
-        options.defines.push_back(
-            {"PARAMETER_" + std::string(technique.parameters[i].name),
-             "shadow.parameters[" + std::to_string(i / 4) + "][" + std::to_string(i % 4) + "]"});
-    program = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lookup.frag", options);
+    if (program.name() == 0)
+        program = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lookup.frag",
+                              techniqueOptions(technique));
     return program;
 }
 
@@ -297,6 +298,8 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     const Technique& technique =
         settings.technique != nullptr ? *settings.technique : techniques().front();
     lookupProgram(technique);
+    mapFilter_.prepare(technique);
+    if (technique.prefilter == Prefilter::none) mapFilter_.release();
     ensureMap(settings.resolution);
     lastFrameSoft_ = technique.soft && settings.radiusUv > 0;
     hasFrame_ = true;
@@ -304,6 +307,10 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     {
         const PassScope scope(Pass::depth, clock);
         drawDepth();
+    }
+    if (technique.prefilter != Prefilter::none) {
+        const PassScope scope(Pass::prefilter, clock);
+        mapFilter_.run(technique, shadow_, map_, reservedEdge_);
     }
     {
         const PassScope scope(Pass::prepass, clock);
@@ -370,7 +377,8 @@ void Renderer::drawPrepass() {
 void Renderer::drawLookup(const Technique& technique) {
     glBindFramebuffer(GL_FRAMEBUFFER, visibilityTarget_.name());
     glViewport(0, 0, widthPx_, heightPx_);
-    bindTextures({positions_.name(), planes_.name(), map_.name()});
+    const bool filtered = technique.prefilter != Prefilter::none;
+    bindTextures({positions_.name(), planes_.name(), filtered ? mapFilter_.map() : map_.name()});
     glUseProgram(lookupProgram(technique).name());
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);

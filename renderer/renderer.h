@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A frame: prepass (visible surfaces), depth pass (the light's map at N x N), lookup pass
-// (visibility of every pixel, into its own target), lit pass. It renders whatever N, radius and
-// technique it is given and knows nothing of how they were chosen; demand_pass.h counts what a
-// chooser needs to know of the frame.
+// A frame: depth pass (the light's map at N x N), prefilter of that map where the technique has
+// one, prepass (visible surfaces), lookup pass (visibility of every pixel, into its own target),
+// lit pass. It renders whatever N, radius and technique it is given and knows nothing of how they
+// were chosen; demand_pass.h counts what a chooser needs to know of the frame.
 //
 //   renderer::HeadlessContext context;
 //   renderer::Renderer renderer(context.info(), renderer::makeScene("yard"), 1280, 720);
@@ -16,6 +16,7 @@
 #include "renderer/gl_context.h"
 #include "renderer/gl_object.h"
 #include "renderer/image.h"
+#include "renderer/map_filter.h"
 #include "renderer/pass_clock.h"
 #include "renderer/scene.h"
 #include "renderer/shader_library.h"
@@ -78,15 +79,17 @@ class Renderer {
     ByteImage readLit();          ///< sRGB codes, 3 channels
     FloatImage readVisibility();  ///< 1 lit
     FloatImage readShadowMap();   ///< N x N linear depth
-    FloatImage readPositions();   ///< 4 channels: relative to the eye; w 0 is sky
-    FloatImage readPlanes();      ///< 4 channels: unit normal of the triangle
+    FloatImage
+    readFilteredMap();  ///< what the lookup read; empty after a technique without prefilter
+    FloatImage readPositions();  ///< 4 channels: relative to the eye; w 0 is sky
+    FloatImage readPlanes();     ///< 4 channels: unit normal of the triangle
     unsigned litFramebuffer() const { return litTarget_.name(); }
 
     /// As the last frame had them: the CPU evaluates the same pixels with these.
     const f32::ViewConstants& viewConstants() const { return view_; }
     const f32::ShadowConstants& shadowConstants() const { return shadow_; }
 
-    std::size_t mapBytes() const;     ///< of the last frame's map
+    std::size_t mapBytes() const;     ///< of the last frame's map and what it was filtered in
     std::size_t targetBytes() const;  ///< of everything that has the viewport's size
     std::size_t triangles() const;
 
@@ -132,6 +135,7 @@ class Renderer {
     int mapEdge_ = 0;
     Texture map_;
     Framebuffer mapTarget_;
+    MapFilter mapFilter_;
     Texture positions_, planes_, normals_, albedos_, surfaceDepth_, visibility_, lit_;
     Framebuffer prepassTarget_, visibilityTarget_, litTarget_;
 };

@@ -22,7 +22,7 @@ std::string preamble(const ShaderOptions& options) {
     text << "#version 450 core\n"
             "#define real float\n#define real2 vec2\n#define real3 vec3\n#define real4 "
             "vec4\n#define real4x4 mat4\n"
-            "#define int2 ivec2\n#define SHARED_FUNCTION\n"
+            "#define int2 ivec2\n#define int3 ivec3\n#define SHARED_FUNCTION\n"
          << "#define BINDING_VIEW " << kViewBinding << "\n#define BINDING_SHADOW " << kShadowBinding
          << "\n#define BINDING_LOOK " << kLookBinding << "\n#define PATTERN_TILES "
          << unsigned(Pattern::tiles) << "\n#define PATTERN_BANDS " << unsigned(Pattern::bands)
@@ -220,6 +220,18 @@ const std::string& ShaderLibrary::text(std::string_view path,
                                  "shader file " + std::string(kFolder) + std::string(path) +
                                  " does not exist");
     return found->second;
+}
+
+ShaderOptions techniqueOptions(const Technique& technique) {
+    const bool filtered = technique.prefilter != Prefilter::none;
+    ShaderOptions options{.defines = {{"TECHNIQUE", std::string(technique.name)},
+                                      {"MAP_SAMPLER", filtered ? "sampler2DArray" : "sampler2D"}},
+                          .substitutions = {{"technique", technique.shaderFile()}}};
+    for (std::size_t i = 0; i < technique.parameters.size(); ++i)
+        options.defines.push_back(
+            {"PARAMETER_" + std::string(technique.parameters[i].name),
+             "shadow.parameters[" + std::to_string(i / 4) + "][" + std::to_string(i % 4) + "]"});
+    return options;
 }
 
 ExpandedShader expandShader(const ShaderLibrary& library, const std::string& path,

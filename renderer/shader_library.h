@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "renderer/gl_object.h"
+#include "renderer/technique.h"
 
 namespace renderer {
 
@@ -44,6 +45,10 @@ struct ShaderOptions {
     std::vector<ShaderDefine> defines;
     std::map<std::string, std::string> substitutions;  ///< include name -> path
 };
+
+/// Of the passes that include "technique": its file, where each of its parameters lies, and the
+/// sampler of the map that its lookup reads.
+ShaderOptions techniqueOptions(const Technique& technique);
 
 /// One source text with all includes in place, and the files that its #line directives number.
 struct ExpandedShader {

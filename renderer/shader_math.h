@@ -7,10 +7,10 @@
 //   namespace renderer::f32, renderer::f64: ViewConstants, ShadowConstants, ShadowReceiver,
 //   shadowReceiver(), discCoverage4(), ... with the meaning given in the .glsl files.
 //
-// A file of this subset may use: real, real2..4, real4x4, int2; SHARED_FUNCTION before each
+// A file of this subset may use: real, real2..4, real4x4, int2, int3; SHARED_FUNCTION before each
 // function; real(x) around every literal that meets a real; sampler2D with texelFetch and
-// textureGather; the GLSL functions named below. It may not use swizzles of more than one
-// component, out parameters, #include.
+// textureGather, sampler2DArray with texelFetch; the GLSL functions named below. It may not use
+// swizzles of more than one component, out parameters, #include.
 #pragma once
 
 #include <array>
@@ -30,6 +30,19 @@ struct MapView {
                       static_cast<std::size_t>(column)];
     }
 };
+
+/// A stack of square layers of four values per texel, as a sampler. Does not own the texels.
+template <class Real>
+struct LayeredMapView {
+    const glm::vec<4, Real>* texels = nullptr;
+    int edge = 0;
+};
+
+template <class Real>
+glm::vec<4, Real> texelFetch(const LayeredMapView<Real>& map, const glm::ivec3& texel, int) {
+    const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    return map.texels[(at(texel.z) * at(map.edge) + at(texel.y)) * at(map.edge) + at(texel.x)];
+}
 
 /// One texel, all components alike.
 inline glm::vec4 texelFetch(const MapView& map, const glm::ivec2& texel, int) {
@@ -52,17 +65,19 @@ glm::vec4 textureGather(const MapView& map, const glm::vec<2, Real>& coordinate)
 
 #define SHARED_FUNCTION inline
 
-#define STAIRWELL_SHADER_LANGUAGE(scalar)                                              \
-    using real = scalar;                                                               \
-    using real2 = glm::vec<2, real>;                                                   \
-    using real3 = glm::vec<3, real>;                                                   \
-    using real4 = glm::vec<4, real>;                                                   \
-    using real4x4 = glm::mat<4, 4, real>;                                              \
-    using int2 = glm::ivec2;                                                           \
-    using sampler2D = MapView;                                                         \
-    using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, \
-        glm::length, glm::lessThan;                                                    \
-    using glm::log, glm::max, glm::min, glm::mix, glm::normalize, glm::sqrt;
+#define STAIRWELL_SHADER_LANGUAGE(scalar)                                                       \
+    using real = scalar;                                                                        \
+    using real2 = glm::vec<2, real>;                                                            \
+    using real3 = glm::vec<3, real>;                                                            \
+    using real4 = glm::vec<4, real>;                                                            \
+    using real4x4 = glm::mat<4, 4, real>;                                                       \
+    using int2 = glm::ivec2;                                                                    \
+    using int3 = glm::ivec3;                                                                    \
+    using sampler2D = MapView;                                                                  \
+    using sampler2DArray = LayeredMapView<real>;                                                \
+    using glm::abs, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::dot, glm::exp, glm::exp2, \
+        glm::floor, glm::length, glm::lessThan;                                                 \
+    using glm::log, glm::log2, glm::max, glm::min, glm::mix, glm::normalize, glm::sin, glm::sqrt;
 
 // Each file needs the ones before it.
 // clang-format off
@@ -72,6 +87,12 @@ STAIRWELL_SHADER_LANGUAGE(float)
 #include "renderer/shaders/shared/receiver.glsl"
 #include "renderer/shaders/shared/depth_compare.glsl"
 #include "renderer/shaders/shared/disc_kernel.glsl"
+#include "renderer/shaders/shared/disc_visibility.glsl"
+#include "renderer/shaders/shared/taps.glsl"
+#include "renderer/shaders/shared/filtered_map.glsl"
+#include "renderer/shaders/shared/chebyshev.glsl"
+#include "renderer/shaders/shared/exponential_warp.glsl"
+#include "renderer/shaders/shared/hamburger.glsl"
 }  // namespace f32
 
 namespace f64 {
@@ -80,6 +101,12 @@ STAIRWELL_SHADER_LANGUAGE(double)
 #include "renderer/shaders/shared/receiver.glsl"
 #include "renderer/shaders/shared/depth_compare.glsl"
 #include "renderer/shaders/shared/disc_kernel.glsl"
+#include "renderer/shaders/shared/disc_visibility.glsl"
+#include "renderer/shaders/shared/taps.glsl"
+#include "renderer/shaders/shared/filtered_map.glsl"
+#include "renderer/shaders/shared/chebyshev.glsl"
+#include "renderer/shaders/shared/exponential_warp.glsl"
+#include "renderer/shaders/shared/hamburger.glsl"
 }  // namespace f64
 // clang-format on
 
@@ -92,12 +119,13 @@ static_assert(offsetof(f32::ViewConstants, pixelRight) == 80);
 static_assert(offsetof(f32::ViewConstants, pixelUp) == 96);
 static_assert(offsetof(f32::ViewConstants, forward) == 112);
 static_assert(offsetof(f32::ViewConstants, viewport) == 128);
-static_assert(sizeof(f32::ShadowConstants) == 208);
+static_assert(sizeof(f32::ShadowConstants) == 224);
 static_assert(offsetof(f32::ShadowConstants, shadowFromWorld) == 64);
 static_assert(offsetof(f32::ShadowConstants, towardsLight) == 128);
 static_assert(offsetof(f32::ShadowConstants, map) == 144);
 static_assert(offsetof(f32::ShadowConstants, kernel) == 160);
 static_assert(offsetof(f32::ShadowConstants, parameters) == 176);
+static_assert(offsetof(f32::ShadowConstants, prefilter) == 208);
 static_assert(sizeof(f32::LookConstants) == 96);
 static_assert(offsetof(f32::LookConstants, zenithColour) == 16);
 static_assert(offsetof(f32::LookConstants, horizonColour) == 32);

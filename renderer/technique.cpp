@@ -14,9 +14,228 @@ constexpr TechniqueParameter kBiasTexels{
     .low = 0,
     .high = 4,
     .standard = 1.0F / 32};
+constexpr TechniqueParameter kGaussian{
+    .name = "gaussian",
+    .meaning = "prefilter: 0 a box, 1 a Gaussian, of the disc's standard deviation",
+    .whole = true};
+
+constexpr TechniqueParameter biasReaches(float standard) {
+    return {
+        .name = "bias_reaches",
+        .meaning = "depth bias: change of the receiver plane's depth over this many kernel reaches",
+        .low = 0,
+        .high = 2,
+        .standard = standard};
+}
+
+/// For what a format rounds off a depth in three passes. A GL may round towards zero: a whole step
+/// each.
+constexpr TechniqueParameter biasDepth(float standard) {
+    return {.name = "bias_depth",
+            .meaning = "depth bias, as a share of the map's depth range",
+            .low = 0,
+            .high = 0.1F,
+            .standard = standard};
+}
+constexpr float kHalfRounding = 3.0F / 2048;  // 11 bits: a step is 2^-11 near 1
+constexpr float kSplitRounding = 3.0F / (1 << 20);
 
 constexpr TechniqueParameter kDepthMapParameters[] = {kBiasTexels};
 constexpr Property kHardDoesNot[] = {Property::softnessIndependentOfN};
+
+constexpr TechniqueParameter kBilinear{
+    .name = "bilinear",
+    .meaning = "a sample is 0 the nearest texel's compare, 1 the tent of four",
+    .standard = 1,
+    .whole = true};
+constexpr TechniqueParameter kGridParameters[] = {
+    kBiasTexels,
+    {.name = "samples",
+     .meaning = "samples along the kernel's edge",
+     .low = 1,
+     .high = 16,
+     .standard = 5,
+     .whole = true},
+    kBilinear,
+    {.name = "gaussian",
+     .meaning = "weights: 0 alike, 1 a Gaussian of the disc's standard deviation",
+     .whole = true}};
+
+struct TapParameters {
+    TechniqueParameter all[4];
+};
+constexpr TapParameters tapParameters(float low, float high) {
+    return {{kBiasTexels,
+             {.name = "taps",
+              .meaning = "taps in the disc",
+              .low = low,
+              .high = high,
+              .standard = 25,
+              .whole = true},
+             kBilinear,
+             {.name = "rotated",
+              .meaning = "1 turns the taps from pixel to pixel: noise in place of bands",
+              .standard = 1,
+              .whole = true}}};
+}
+constexpr TapParameters kPoisson = tapParameters(8, 32);
+constexpr TapParameters kVogel = tapParameters(1, 128);
+constexpr Property kTapsDoNot[] = {Property::errorFallsWithN};
+constexpr std::string_view kTapsDoNotBecause =
+    "a fixed number of samples does not see more of a finer map";
+
+constexpr TechniqueParameter kPcssParameters[] = {
+    kBiasTexels,
+    {.name = "distance",
+     .meaning = "share of the depth range between a blocker and the receiver at which the penumbra "
+                "has the kernel's radius",
+     .low = 0.001F,
+     .high = 10,
+     .standard = 0.25F},
+    {.name = "search_taps",
+     .meaning = "texels that the search for blockers reads",
+     .low = 1,
+     .high = 256,
+     .standard = 32,
+     .whole = true}};
+constexpr Property kPcssDoesNot[] = {Property::monotoneInDepth};
+
+constexpr TechniqueParameter kGradientParameters[] = {
+    {.name = "bias",
+     .meaning = "depth bias, in texels' worth of slope",
+     .low = 0,
+     .high = 4,
+     .standard = 1.0F / 32},
+    {.name = "gradient",
+     .meaning = "slope from 0 the map's neighbours, 1 a regression over the taps, 2 the receiver",
+     .low = 0,
+     .high = 2,
+     .standard = 2,
+     .whole = true},
+    {.name = "taps",
+     .meaning = "taps in the disc",
+     .low = 3,
+     .high = 64,
+     .standard = 16,
+     .whole = true},
+    {.name = "offsets",
+     .meaning = "1 lets the receiver's depth follow the slope to each tap",
+     .standard = 1,
+     .whole = true},
+    {.name = "most_slope",
+     .meaning = "steepest slope, in depth ranges per extent of the map",
+     .low = 0.1F,
+     .high = 100,
+     .standard = 4}};
+
+/// vsm.glsl. The floor of the variance lies above what rounding makes of it: some steps of the mean
+/// square, each 2^-24 near 1 in 32 bits and 2^-12 in 16.
+struct VarianceParameters {
+    TechniqueParameter all[6];
+};
+constexpr VarianceParameters varianceParameters(float depthBias, float leastVariance) {
+    return {{kBiasTexels,
+             biasDepth(depthBias),
+             kGaussian,
+             {.name = "least_variance",
+              .meaning = "least variance, in squares of the map's depth range",
+              .low = 0,
+              .high = 0.01F,
+              .standard = leastVariance},
+             {.name = "bleeding",
+              .meaning = "light bleeding reduction: visibility that becomes 0",
+              .low = 0,
+              .high = 0.95F,
+              .standard = 0},
+             {.name = "derivative",
+              .meaning = "weight of the variance that a texel's own slope has",
+              .low = 0,
+              .high = 1,
+              .standard = 1}}};
+}
+constexpr VarianceParameters kVariance32 = varianceParameters(0, 1e-6F);
+constexpr VarianceParameters kVariance16 = varianceParameters(kHalfRounding, 1.0F / 2048);
+constexpr VarianceParameters kVarianceSplit = varianceParameters(kSplitRounding, 1.0F / (1 << 19));
+
+constexpr TechniqueParameter kExponentialParameters[] = {
+    kBiasTexels,
+    kGaussian,
+    {.name = "exponent",
+     .meaning = "c of exp(c (z - d)), per depth range: light leaks within about 1/c",
+     .low = 1,
+     .high = 1000,
+     .standard = 80}};
+
+constexpr TechniqueParameter kPositiveExponent{
+    .name = "positive_exponent",
+    .meaning = "c of the warp exp(c (2 z - 1))",
+    .low = 1,
+    .high = 42,  // the square of exp(c) times a kernel's worth of rounding fits 32 bits
+    .standard = 40};
+constexpr TechniqueParameter kLeastDeviation{
+    .name = "least_deviation",
+    .meaning = "least standard deviation of depth, as a share of the depth range",
+    .low = 0,
+    .high = 0.1F,
+    .standard = 1e-4F};
+constexpr TechniqueParameter kEvsm2Parameters[] = {kBiasTexels, kGaussian, kPositiveExponent,
+                                                   kLeastDeviation};
+constexpr TechniqueParameter kEvsm4Parameters[] = {kBiasTexels,
+                                                   biasReaches(1),
+                                                   kGaussian,
+                                                   kPositiveExponent,
+                                                   {.name = "negative_exponent",
+                                                    .meaning = "k of the warp -exp(-k (2 z - 1))",
+                                                    .low = 1,
+                                                    .high = 42,
+                                                    .standard = 20},
+                                                   kLeastDeviation};
+
+/// msm.glsl and msm16.glsl.
+struct MomentParameters {
+    TechniqueParameter all[5];
+};
+constexpr MomentParameters momentParameters(float depthBias, float momentBias) {
+    return {{kBiasTexels,
+             biasReaches(1),
+             biasDepth(depthBias),
+             kGaussian,
+             {.name = "moment_bias",
+              .meaning = "alpha: how far moments are moved towards possible ones",
+              .low = 0,
+              .high = 0.1F,
+              .standard = momentBias}}};
+}
+constexpr float kMomentDarkening = 1.0F / 512;  // half an 8-bit level, of the moments' bias
+// Smaller ones leave noise where the kernel finds depths that are nearly one: at 3e-7 in 32 bits up
+// to .07 of visibility, at 1e-5 in 16 bits anything.
+constexpr MomentParameters kMoments32 = momentParameters(0, 3e-6F);
+constexpr MomentParameters kMoments16 = momentParameters(2e-4F, 6e-5F);
+
+struct PowerParameters {
+    TechniqueParameter all[4];
+};
+constexpr PowerParameters powerParameters(float depthBias) {
+    return {{kBiasTexels, biasReaches(1), biasDepth(depthBias), kGaussian}};
+}
+constexpr PowerParameters kPower32 = powerParameters(0);
+constexpr PowerParameters kPower16 = powerParameters(kHalfRounding);
+constexpr Property kPowerDoesNot[] = {Property::errorFallsWithN, Property::softnessIndependentOfN};
+constexpr std::string_view kPowerDoesNotBecause =
+    "a receiver that is the greatest depth under the kernel is dark: shadows are wider by the "
+    "kernel, and on a receiver parallel to the map their edge is as wide as a texel";
+
+constexpr std::string_view kPcfPaper =
+    "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps";
+constexpr std::string_view kVariancePaper = "Donnelly, Lauritzen 2006, Variance shadow maps";
+constexpr std::string_view kWarpedPaper = "Lauritzen, McCool 2008, Layered variance shadow maps";
+constexpr std::string_view kMomentPaper = "Peters, Klein 2015, Moment shadow mapping";
+constexpr std::string_view kPowerPaper =
+    "Gumbau, Szirmay-Kalos, Sbert, Chover 2011, Improving shadow map filtering with statistical "
+    "analysis";
+constexpr std::string_view kSeparableCost =
+    "4 texels a pixel; the prefilter 2 (1.7 r/a + 1) texels a texel: grows with N^3 at constant "
+    "softness";
 
 constexpr Technique kTechniques[] = {
     {.name = "hard",
@@ -29,23 +248,178 @@ constexpr Technique kTechniques[] = {
      .cost = "1 texel a pixel"},
     {.name = "pcf_disc",
      .title = "PCF, full disc",
-     .paper = "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps",
+     .paper = kPcfPaper,
      .parameters = kDepthMapParameters,
      .cost = "pi (r/a)^2 texels a pixel, four to a gather: grows with N^2 at constant softness"},
+    {.name = "pcf_grid",
+     .title = "PCF, grid",
+     .paper = kPcfPaper,
+     .parameters = kGridParameters,
+     .doNotHold = kTapsDoNot,
+     .doNotHoldBecause = kTapsDoNotBecause,
+     .cost = "samples^2 texels a pixel, four times as many bilinearly; independent of N"},
+    {.name = "pcf_poisson",
+     .title = "PCF, Poisson taps",
+     .paper = kPcfPaper,
+     .parameters = kPoisson.all,
+     .doNotHold = kTapsDoNot,
+     .doNotHoldBecause = kTapsDoNotBecause,
+     .cost = "one texel a tap, four bilinearly; independent of N"},
+    {.name = "pcf_vogel",
+     .title = "PCF, Vogel taps",
+     .paper = kPcfPaper,
+     .parameters = kVogel.all,
+     .doNotHold = kTapsDoNot,
+     .doNotHoldBecause = kTapsDoNotBecause,
+     .cost = "one texel a tap, four bilinearly; independent of N"},
+    {.name = "pcss",
+     .title = "PCSS, full disc",
+     .paper = "Fernando 2005, Percentage-closer soft shadows",
+     .parameters = kPcssParameters,
+     .doNotHold = kPcssDoesNot,
+     .doNotHoldBecause = "farther receivers have wider penumbrae",
+     .cost = "search_taps texels a pixel and where blockers are pi (r/a)^2 of the local radius"},
+    {.name = "gsm",
+     .title = "Gradient PCF",
+     .paper = "Schueler 2006, Multisampling extension for gradient shadow maps",
+     .parameters = kGradientParameters,
+     .doNotHold = kTapsDoNot,
+     .doNotHoldBecause = kTapsDoNotBecause,
+     .cost = "4 texels a tap, 8 with regression; independent of N"},
+    {.name = "vsm",
+     .title = "Variance, 32 bits",
+     .paper = kVariancePaper,
+     .format = MapFormat::rg32f,
+     .prefilter = Prefilter::mean,
+     .parameters = kVariance32.all,
+     .cost = kSeparableCost},
+    {.name = "vsm16",
+     .title = "Variance, 16 bits",
+     .paper = kVariancePaper,
+     .file = "vsm",
+     .format = MapFormat::rg16f,
+     .prefilter = Prefilter::mean,
+     .parameters = kVariance16.all,
+     .cost = kSeparableCost},
+    {.name = "vsm_split",
+     .title = "Variance, 2 x 16 bits",
+     .paper = kVariancePaper,
+     .file = "vsm",
+     .format = MapFormat::rg16fSplit,
+     .prefilter = Prefilter::mean,
+     .parameters = kVarianceSplit.all,
+     .cost = kSeparableCost},
+    {.name = "esm",
+     .title = "Exponential",
+     .paper = "Annen, Mertens, Seidel, Flerackers, Kautz 2008, Exponential shadow maps",
+     .format = MapFormat::r32f,
+     .prefilter = Prefilter::logMean,
+     .parameters = kExponentialParameters,
+     .cost = kSeparableCost},
+    {.name = "evsm2",
+     .title = "Exponential variance, 2 moments",
+     .paper = kWarpedPaper,
+     .format = MapFormat::rg32f,
+     .prefilter = Prefilter::mean,
+     .parameters = kEvsm2Parameters,
+     .cost = kSeparableCost},
+    {.name = "evsm4",
+     .title = "Exponential variance, 4 moments",
+     .paper = kWarpedPaper,
+     .format = MapFormat::rgba32f,
+     .prefilter = Prefilter::mean,
+     .parameters = kEvsm4Parameters,
+     .cost = kSeparableCost},
+    {.name = "msm",
+     .title = "Moments, 32 bits",
+     .paper = kMomentPaper,
+     .format = MapFormat::rgba32f,
+     .prefilter = Prefilter::mean,
+     .parameters = kMoments32.all,
+     .planeDarkening = kMomentDarkening,
+     .cost = kSeparableCost},
+    {.name = "msm16",
+     .title = "Moments, 16 bits",
+     .paper = kMomentPaper,
+     .format = MapFormat::rgba16,
+     .prefilter = Prefilter::mean,
+     .parameters = kMoments16.all,
+     .planeDarkening = kMomentDarkening,
+     .cost = kSeparableCost},
+    {.name = "power_cdf",
+     .title = "Power CDF, 32 bits",
+     .paper = kPowerPaper,
+     .format = MapFormat::rgba32f,
+     .prefilter = Prefilter::minMaxMean,
+     .parameters = kPower32.all,
+     .doNotHold = kPowerDoesNot,
+     .doNotHoldBecause = kPowerDoesNotBecause,
+     .cost = kSeparableCost},
+    {.name = "power_cdf16",
+     .title = "Power CDF, 16 bits",
+     .paper = kPowerPaper,
+     .file = "power_cdf",
+     .format = MapFormat::rgba16f,
+     .prefilter = Prefilter::minMaxMean,
+     .parameters = kPower16.all,
+     .doNotHold = kPowerDoesNot,
+     .doNotHoldBecause = kPowerDoesNotBecause,
+     .cost = kSeparableCost},
 };
 
 }  // namespace
 
-std::string_view toText(MapFormat) {
-    return "32-bit depth";
+std::string_view toText(MapFormat format) {
+    switch (format) {
+        case MapFormat::depth32f:
+            return "32-bit depth";
+        case MapFormat::r32f:
+            return "1 x 32-bit float";
+        case MapFormat::rg32f:
+            return "2 x 32-bit float";
+        case MapFormat::rgba32f:
+            return "4 x 32-bit float";
+        case MapFormat::rg16f:
+            return "2 x 16-bit float";
+        case MapFormat::rgba16f:
+            return "4 x 16-bit float";
+        case MapFormat::rg16fSplit:
+            return "2 x two 16-bit floats";
+        case MapFormat::rgba16:
+            return "4 x 16-bit fixed point";
+    }
+    return "unknown format";
 }
 
-int bytesPerTexel(MapFormat) {
-    return 4;
+int bytesPerTexel(MapFormat format) {
+    switch (format) {
+        case MapFormat::depth32f:
+        case MapFormat::r32f:
+        case MapFormat::rg16f:
+            return 4;
+        case MapFormat::rg32f:
+        case MapFormat::rgba16f:
+        case MapFormat::rg16fSplit:
+        case MapFormat::rgba16:
+            return 8;
+        case MapFormat::rgba32f:
+            return 16;
+    }
+    return 16;
 }
 
-std::string_view toText(Prefilter) {
-    return "none";
+std::string_view toText(Prefilter prefilter) {
+    switch (prefilter) {
+        case Prefilter::none:
+            return "none";
+        case Prefilter::mean:
+            return "separable mean";
+        case Prefilter::logMean:
+            return "separable mean of exponentials, in logarithms";
+        case Prefilter::minMaxMean:
+            return "separable mean, least and greatest";
+    }
+    return "unknown prefilter";
 }
 
 std::string_view toText(Property property) {
@@ -78,43 +452,53 @@ ParameterValues Technique::standardParameters() const {
 }
 
 std::string Technique::shaderFile() const {
-    return "filters/" + std::string(name) + ".glsl";
+    return "filters/" + std::string(fileName()) + ".glsl";
+}
+
+std::optional<std::size_t> Technique::parameterSlot(std::string_view parameter) const {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        if (parameters[i].name == parameter) return i;
+    return std::nullopt;
 }
 
 std::span<const Technique> techniques() {
     return kTechniques;
 }
 
+namespace {
+
+template <class Rows>
+std::string namesOf(const Rows& rows) {
+    std::string names;
+    for (const auto& row : rows) names += (names.empty() ? "" : ", ") + std::string(row.name);
+    return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
 const Technique& findTechnique(std::string_view name) {
-    std::string known;
-    for (const Technique& technique : techniques()) {
+    for (const Technique& technique : techniques())
         if (technique.name == name) return technique;
-        known += (known.empty() ? "" : ", ") + std::string(technique.name);
-    }
     throw std::invalid_argument("technique \"" + std::string(name) +
-                                "\" is not known; known are: " + known);
+                                "\" is not known; known are: " + namesOf(techniques()));
 }
 
 void setParameter(const Technique& technique, ParameterValues& values, std::string_view name,
                   float value) {
-    std::string known;
-    for (std::size_t i = 0; i < technique.parameters.size(); ++i) {
-        const TechniqueParameter& parameter = technique.parameters[i];
-        if (parameter.name == name) {
-            if (!(value >= parameter.low && value <= parameter.high))
-                throw std::invalid_argument("parameter " + std::string(name) + " of technique " +
-                                            std::string(technique.name) + " is " +
-                                            std::to_string(value) + ", must be in [" +
-                                            std::to_string(parameter.low) + ", " +
-                                            std::to_string(parameter.high) + "]");
-            values[i] = value;
-            return;
-        }
-        known += (known.empty() ? "" : ", ") + std::string(parameter.name);
-    }
-    throw std::invalid_argument("technique " + std::string(technique.name) +
-                                " has no parameter \"" + std::string(name) +
-                                "\"; it has: " + (known.empty() ? "none" : known));
+    const auto slot = technique.parameterSlot(name);
+    if (!slot)
+        throw std::invalid_argument("technique " + std::string(technique.name) +
+                                    " has no parameter \"" + std::string(name) +
+                                    "\"; it has: " + namesOf(technique.parameters));
+    const TechniqueParameter& parameter = technique.parameters[*slot];
+    const bool inRange = value >= parameter.low && value <= parameter.high;
+    if (!inRange || (parameter.whole && value != std::floor(value)))
+        throw std::invalid_argument(
+            "parameter " + std::string(name) + " of technique " + std::string(technique.name) +
+            " is " + std::to_string(value) + ", must be " +
+            (parameter.whole ? "a whole number in [" : "in [") + std::to_string(parameter.low) +
+            ", " + std::to_string(parameter.high) + "]");
+    values[*slot] = value;
 }
 
 }  // namespace renderer

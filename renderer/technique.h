@@ -6,27 +6,32 @@
 //   SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants
 //   shadow)
 //
-// which reads its parameters as PARAMETER_<name>. The file is compiled as GLSL and, by the build,
-// as C++.
+// which reads its parameters as PARAMETER_<name>. A technique whose map is filtered before the
+// lookup takes a sampler2DArray instead and also says what a texel stores:
+//
+//   SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstants shadow)
+//
+// The file is compiled as GLSL and, by the build, as C++ (cpu_filter.h).
 #pragma once
 
 #include <array>
-#include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "renderer/shader_math.h"
-
 namespace renderer {
 
-/// What a texel of the map holds.
-enum class MapFormat { depth32f };
+/// What a texel of the map holds that the lookup reads. The split stores two values in four halves
+/// (shared/filtered_map.glsl).
+enum class MapFormat { depth32f, r32f, rg32f, rgba32f, rg16f, rgba16f, rg16fSplit, rgba16 };
 std::string_view toText(MapFormat format);
 int bytesPerTexel(MapFormat format);
 
-/// What is done to the map between depth pass and lookup.
-enum class Prefilter { none };
+/// What is done to the map between depth pass and lookup: nothing, or a separable kernel over the
+/// map's values, over the exponentials of which it stores the logarithm, or one that also finds the
+/// least and the greatest. The numbers are those of shared/filtered_map.glsl.
+enum class Prefilter { none = 0, mean = 1, logMean = 2, minMaxMean = 3 };
 std::string_view toText(Prefilter prefilter);
 
 /// What every technique promises (METHODS section 6); a row names the ones that do not hold for it.
@@ -45,34 +50,33 @@ struct TechniqueParameter {
     std::string_view meaning;  ///< with its unit
     float low = 0, high = 1;   ///< range, both ends allowed
     float standard = 0;        ///< default
+    bool whole = false;        ///< whole numbers alone
 };
 
 inline constexpr std::size_t kMaxTechniqueParameters =
     8;  ///< the size of ShadowConstants::parameters
 using ParameterValues = std::array<float, kMaxTechniqueParameters>;
 
-/// The technique's C++ compilations.
-struct CpuFilter {
-    std::string_view name;
-    float (*f32)(MapView, f32::ShadowReceiver, f32::ShadowConstants) = nullptr;
-    double (*f64)(MapView, f64::ShadowReceiver, f64::ShadowConstants) = nullptr;
-};
-
 struct Technique {
-    std::string_view name;   ///< as in options, tables and the shader file
+    std::string_view name;   ///< as in options and tables
     std::string_view title;  ///< as in menus and figures
     std::string_view paper;
+    std::string_view file = {};  ///< below filters/, without .glsl; empty: the name
     MapFormat format = MapFormat::depth32f;
     Prefilter prefilter = Prefilter::none;
     bool soft = true;  ///< has a kernel whose radius is the softness
     std::span<const TechniqueParameter> parameters;
     std::span<const Property> doNotHold = {};
     std::string_view doNotHoldBecause = {};
+    float planeDarkening = 0;  ///< most that a plane in the map darkens itself, of 1
     std::string_view cost;
 
     bool holds(Property property) const;
     ParameterValues standardParameters() const;
-    std::string shaderFile() const;  ///< "filters/<name>.glsl"
+    std::string_view fileName() const { return file.empty() ? name : file; }
+    std::string shaderFile() const;  ///< "filters/<file>.glsl"
+    /// Position in `parameters`, or absent.
+    std::optional<std::size_t> parameterSlot(std::string_view parameter) const;
 };
 
 std::span<const Technique> techniques();
@@ -81,11 +85,9 @@ std::span<const Technique> techniques();
 const Technique& findTechnique(std::string_view name);
 
 /// Sets one parameter by name. Throws std::invalid_argument for a name that the technique does not
-/// have, and for a value outside the parameter's range or not finite.
+/// have, and for a value outside the parameter's range, not finite, or broken where it must be
+/// whole.
 void setParameter(const Technique& technique, ParameterValues& values, std::string_view name,
                   float value);
-
-/// The technique on the CPU: same mathematics, same map, same constants.
-const CpuFilter& cpuFilter(const Technique& technique);
 
 }  // namespace renderer

@@ -146,8 +146,9 @@ TEST(ShadowBench, WritesOneReportWithItsTable) {
     const tests::TemporaryFolder folder;
     const std::filesystem::path out = folder.path() / "made" / "here";
     const auto result = tests::runProgram(
-        "shadow_bench", {"--out", out.string(), "--resolutions", "auto,64,256", "--width", "160",
-                         "--height", "90", "--rounds", "2", "--scenes", "planar_occluder"});
+        "shadow_bench",
+        {"--out", out.string(), "--resolutions", "auto,64,256", "--width", "160", "--height", "90",
+         "--rounds", "2", "--scenes", "planar_occluder", "--techniques", "pcf_disc"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("the speed of the fixed 256 map"));
     EXPECT_THAT(result.out, HasSubstr("report: " + (out / "report.html").string()));

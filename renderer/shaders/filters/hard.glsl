@@ -6,5 +6,5 @@
 // Parameter: bias_texels (shared/depth_compare.glsl).
 
 SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
-    return nearestVisibility(map, receiver, shadow, planeCompare(receiver, shadow, PARAMETER_bias_texels));
+    return texelVisibility(map, receiver.uv, shadow, planeCompare(receiver, shadow, PARAMETER_bias_texels));
 }

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Lookup pass: the technique's visibility of every pixel, into a target of its own, so that errors are measured on
 // visibility and not on shaded colour. 1 is lit; the sky is lit.
-#include "shared/blocks.glsl"
-#include "shared/receiver.glsl"
-#include "shared/depth_compare.glsl"
-#include "shared/disc_kernel.glsl"
+#include "shared/filters.glsl"
 #include "technique"
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D planes;
-layout(binding = 2) uniform sampler2D shadowMap;
+layout(binding = 2) uniform MAP_SAMPLER shadowMap;
 
 layout(location = 0) out float outVisibility;
 

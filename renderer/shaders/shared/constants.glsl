@@ -22,6 +22,8 @@ struct ShadowConstants {
     real4 kernel;                   // x radius, y least radius where texels show, both as a fraction of the map's extent;
                                     // z samples along a screen pixel's edge (1 but for antialiased pictures)
     real4 parameters[2];            // of the technique, in the order of its table row
+    real4 prefilter;                // x the kernel's standard deviation in texels, y 1 if it is a Gaussian and 0 if a box,
+                                    // z texels of the guard band, w 1 if a texel is split into high and low parts
 };
 
 // How the lit pass looks. Colours are linear light.

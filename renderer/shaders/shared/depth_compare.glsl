@@ -2,6 +2,11 @@
 // The compare that every technique on a depth map shares: a texel against the receiver's plane at that texel's own
 // centre. The bias follows N in the same frame, since everything in it is counted in texels of this frame's map.
 
+// What every reconstruction ends with. A number that is none says nothing against light.
+SHARED_FUNCTION real unitRange(real visibility) {
+    return visibility >= real(0.0) ? min(visibility, real(1.0)) : (visibility < real(0.0) ? real(0.0) : real(1.0));
+}
+
 struct PlaneCompare {
     real atOrigin;  // depth of the receiver's plane at texel coordinates (0,0), bias taken off
     real2 perTexel; // its change from texel to texel
@@ -44,10 +49,9 @@ SHARED_FUNCTION bool reachesMap(real2 uv, real radiusUv) {
     return uv.x > -radiusUv && uv.x < real(1.0) + radiusUv && uv.y > -radiusUv && uv.y < real(1.0) + radiusUv;
 }
 
-// Lit or not in the one texel that holds the receiver. Outside the map is lit.
-SHARED_FUNCTION real nearestVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow,
-                                       PlaneCompare plane) {
-    real2 texel = floor(receiver.uv * shadow.map.x);
+// Lit or not in the one texel that holds a place. Outside the map is lit.
+SHARED_FUNCTION real texelVisibility(sampler2D map, real2 uv, ShadowConstants shadow, PlaneCompare plane) {
+    real2 texel = floor(uv * shadow.map.x);
     if (!(texel.x >= real(0.0) && texel.y >= real(0.0) && texel.x < shadow.map.x && texel.y < shadow.map.x))
         return real(1.0);
     int2 index = int2(int(texel.x), int(texel.y));

@@ -86,13 +86,16 @@ SHARED_FUNCTION bool inPenumbra(real visibility) {
     return visibility > kVisibleShare && visibility < real(1.0) - kVisibleShare;
 }
 
-// The kernel's radius at this receiver, as a fraction of the map's extent, in [0,1]. Where the map is smaller than
-// the softness asks for, the controller hands back a least radius (METHODS section 7); it holds where a texel is
-// larger than two pixels, not at all where it is smaller than one, and fades in between (the fade is chosen by eye:
-// a hard switch would draw a line across the ground).
-SHARED_FUNCTION real kernelRadiusUv(ShadowReceiver receiver, ShadowConstants shadow) {
+// A kernel's radius at this receiver, as a fraction of the map's extent, in [0,1], where softness asks for `radius`.
+// Where the map is smaller than the softness asks for, the controller hands back a least radius (METHODS section 7); it
+// holds where a texel is larger than two pixels, not at all where it is smaller than one, and fades in between (the
+// fade is chosen by eye: a hard switch would draw a line across the ground).
+SHARED_FUNCTION real shownRadiusUv(real radius, ShadowReceiver receiver, ShadowConstants shadow) {
     real texelsPerPixel = receiver.footprintUv * shadow.kernel.z * shadow.map.x;
     real texelShows = clamp(real(1.0) / max(texelsPerPixel, real(1e-6)) - real(1.0), real(0.0), real(1.0));
-    real radius = mix(shadow.kernel.x, max(shadow.kernel.x, shadow.kernel.y), texelShows);
-    return clamp(radius, real(0.0), real(1.0));
+    return clamp(mix(radius, max(radius, shadow.kernel.y), texelShows), real(0.0), real(1.0));
+}
+
+SHARED_FUNCTION real kernelRadiusUv(ShadowReceiver receiver, ShadowConstants shadow) {
+    return shownRadiusUv(shadow.kernel.x, receiver, shadow);
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Percentage-closer filtering with Poisson-disc taps in the disc, turned from pixel to pixel if asked: a fixed cost,
+// with noise in place of bands.
+//
+// Source: W. Reeves, D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987;
+// shared/taps.glsl.
+// Map: linear light depth, 0 near. Reads one texel a tap, four bilinearly.
+// Parameters: bias_texels (shared/depth_compare.glsl); taps; bilinear; rotated.
+
+SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
+    real radius = kernelRadiusUv(receiver, shadow);
+    if (!reachesMap(receiver.uv, radius + shadow.map.y)) return real(1.0);
+    PlaneCompare plane = planeCompare(receiver, shadow, PARAMETER_bias_texels);
+    real2 turn = PARAMETER_rotated != real(0.0) ? turnAt(receiver) : real2(1.0, 0.0);
+    int n = int(PARAMETER_taps);
+    real lit = real(0.0);
+    for (int i = 0; i < n; ++i) {
+        real2 uv = receiver.uv + turned(poissonTap(i), turn) * radius;
+        lit += tapVisibility(map, uv, shadow, plane, PARAMETER_bilinear);
+    }
+    return clamp(lit / real(n), real(0.0), real(1.0));
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Maps that are filtered before the lookup: from depths to the values that a technique stores, the separable prefilter,
+// and the lookup. Needs receiver.glsl and depth_compare.glsl. ShadowConstants::prefilter says how (prefilter.h).
+//
+// The map lies in the middle of a texture that is larger by a guard band on every side, as wide as the kernel reaches,
+// so that shadows fade out over the map's edge as they do with the full disc. Outside the map nothing is in the way:
+// depth 1 there, as in cleared texels.
+
+SHARED_FUNCTION int filteredEdge(ShadowConstants shadow) {
+    return int(shadow.map.x) + 2 * int(shadow.prefilter.z);
+}
+
+// --- From depth to what is stored ---
+
+// Depth of the caster in a texel of the filtered map. Depth that is no number is no caster.
+SHARED_FUNCTION real casterDepth(sampler2D depthMap, int2 texel, ShadowConstants shadow) {
+    int guard = int(shadow.prefilter.z);
+    int2 inside = texel - int2(guard, guard);
+    int last = int(shadow.map.x) - 1;
+    if (inside.x < 0 || inside.y < 0 || inside.x > last || inside.y > last) return real(1.0);
+    real depth = real(texelFetch(depthMap, inside, 0).x);
+    return depth >= real(0.0) ? min(depth, real(1.0)) : (depth < real(0.0) ? real(0.0) : real(1.0));
+}
+
+SHARED_FUNCTION real smallerOf(real a, real b) { return abs(a) < abs(b) ? a : b; }
+
+// Change of the caster's depth over one texel. The smaller of the differences to either side: a silhouette is not a
+// slope.
+SHARED_FUNCTION real2 casterSlope(sampler2D depthMap, int2 texel, ShadowConstants shadow) {
+    real here = casterDepth(depthMap, texel, shadow);
+    return real2(smallerOf(casterDepth(depthMap, texel + int2(1, 0), shadow) - here,
+                           here - casterDepth(depthMap, texel - int2(1, 0), shadow)),
+                 smallerOf(casterDepth(depthMap, texel + int2(0, 1), shadow) - here,
+                           here - casterDepth(depthMap, texel - int2(0, 1), shadow)));
+}
+
+// The hi/lo split of a format with 11 significant bits (Donnelly and Lauritzen 2006, section 5.3): two values in four
+// channels, high part in steps of 1/256, which the format holds exactly, rest times 256. What is read is joined again
+// before it is filtered, since the parts of a mean are not the means of the parts in 11 bits.
+const real kSplitFactor = real(256.0);
+
+SHARED_FUNCTION real4 packedTexel(real4 value, ShadowConstants shadow) {
+    if (shadow.prefilter.w == real(0.0)) return value;
+    real2 scaled = real2(value.x, value.y) * kSplitFactor;
+    real2 whole = floor(scaled);
+    real2 rest = scaled - whole;
+    return real4(whole.x / kSplitFactor, whole.y / kSplitFactor, rest.x, rest.y);
+}
+
+SHARED_FUNCTION real4 unpackedTexel(real4 stored, ShadowConstants shadow) {
+    if (shadow.prefilter.w == real(0.0)) return stored;
+    return real4(stored.x + stored.z / kSplitFactor, stored.y + stored.w / kSplitFactor, 0.0, 0.0);
+}
+
+// --- The separable prefilter ---
+
+// How far the kernel reaches from its centre, in texels. x of the constants is the standard deviation of the kernel.
+SHARED_FUNCTION real kernelReach(ShadowConstants shadow) {
+    bool gaussian = shadow.prefilter.y != real(0.0);
+    return shadow.prefilter.x * (gaussian ? real(3.0) : real(1.7320508075688772));
+}
+
+// Texels to either side of the middle one that the kernel touches.
+SHARED_FUNCTION int kernelTaps(ShadowConstants shadow) { return int(ceil(max(kernelReach(shadow) - real(0.5), real(0.0)))); }
+
+// The kernel's share of the texel i texels from its centre, up to a factor.
+SHARED_FUNCTION real tapWeight(int i, ShadowConstants shadow) {
+    real x = real(i);
+    if (shadow.prefilter.y != real(0.0)) {
+        // A Gaussian averaged over a texel is nearly a Gaussian with the texel's variance added.
+        real variance = shadow.prefilter.x * shadow.prefilter.x + real(1.0 / 12.0);
+        return exp(-real(0.5) * x * x / variance);
+    }
+    real reach = max(kernelReach(shadow), real(1e-6));
+    return max(min(x + real(0.5), reach) - max(x - real(0.5), -reach), real(0.0));
+}
+
+// How taps join: the numbers are Prefilter in technique.h.
+// mean: all four channels. logMean: x is a logarithm, kept as one, since the exponentials overflow; the sum is counted
+// in units of the largest tap so far. minMaxMean: x mean, y least, z greatest.
+const int kPrefilterMean = 1;
+const int kPrefilterLogMean = 2;
+const int kPrefilterMinMaxMean = 3;
+
+SHARED_FUNCTION real4 joinedTap(int prefilter, real4 sum, real4 value, real weight) {
+    if (prefilter == kPrefilterMean) return sum + value * weight;
+    if (prefilter == kPrefilterLogMean) {
+        real most = max(sum.x, value.x);
+        return real4(most, sum.y * exp(sum.x - most) + weight * exp(value.x - most), 0.0, 0.0);
+    }
+    return real4(sum.x + value.x * weight, min(sum.y, value.y), max(sum.z, value.z), 0.0);
+}
+
+// One line of the prefilter through a texel, axis (1,0) or (0,1).
+SHARED_FUNCTION real4 filteredLine(sampler2DArray map, int2 texel, int2 axis, int layer, int prefilter,
+                                   ShadowConstants shadow) {
+    int last = filteredEdge(shadow) - 1;
+    int taps = kernelTaps(shadow);
+    real4 sum = real4(0.0);
+    if (prefilter == kPrefilterLogMean) sum = real4(-1e30, 0.0, 0.0, 0.0);
+    if (prefilter == kPrefilterMinMaxMean) sum = real4(0.0, 2.0, -1.0, 0.0);
+    real total = real(0.0);
+    for (int i = -taps; i <= taps; ++i) {
+        // Beyond the guard band everything is as on its rim.
+        int2 at = clamp(texel + axis * i, int2(0, 0), int2(last, last));
+        real weight = tapWeight(i, shadow);
+        sum = joinedTap(prefilter, sum, unpackedTexel(texelFetch(map, int3(at.x, at.y, layer), 0), shadow), weight);
+        total += weight;
+    }
+    if (prefilter == kPrefilterMean) return sum / total;
+    if (prefilter == kPrefilterLogMean) return real4(sum.x + log(sum.y / total), 0.0, 0.0, 0.0);
+    return real4(sum.x / total, sum.y, sum.z, 0.0);
+}
+
+// --- The lookup ---
+
+// Bilinear, in the arithmetic of the shader: the weights of texture units have 8 bits, and split texels must be joined
+// first.
+SHARED_FUNCTION real4 filteredTexel(sampler2DArray map, real2 uv, int layer, ShadowConstants shadow) {
+    real last = real(filteredEdge(shadow) - 1);
+    real2 place = uv * shadow.map.x + real2(shadow.prefilter.z - real(0.5));
+    place = clamp(place, real2(0.0), real2(last));
+    int2 low = int2(int(place.x), int(place.y));
+    int2 high = int2(min(low.x + 1, int(last)), min(low.y + 1, int(last)));
+    real2 part = place - real2(real(low.x), real(low.y));
+    real4 lower = mix(unpackedTexel(texelFetch(map, int3(low.x, low.y, layer), 0), shadow),
+                      unpackedTexel(texelFetch(map, int3(high.x, low.y, layer), 0), shadow), part.x);
+    real4 upper = mix(unpackedTexel(texelFetch(map, int3(low.x, high.y, layer), 0), shadow),
+                      unpackedTexel(texelFetch(map, int3(high.x, high.y, layer), 0), shadow), part.x);
+    return mix(lower, upper, part.y);
+}
+
+SHARED_FUNCTION bool reachesFilteredMap(real2 uv, ShadowConstants shadow) {
+    return reachesMap(uv, (kernelReach(shadow) + real(1.0)) * shadow.map.y);
+}
+
+// The depth that a receiver is compared at: its own, less what float32, the map's rounding (depthBias) and the kernel
+// may have moved it by. texels and reaches count along the receiver's plane, reaches in reaches of the kernel with the
+// texel that the bilinear lookup adds: a plane that rises towards the light lies before its own point by up to one
+// reach. Never beyond 1, so that a cleared map is lit.
+SHARED_FUNCTION real biasedDepth(ShadowReceiver receiver, ShadowConstants shadow, real texels, real reaches,
+                                 real depthBias) {
+    real span = (texels + reaches * (kernelReach(shadow) + real(1.0))) * shadow.map.y;
+    real steepness = abs(receiver.depthGradient.x) + abs(receiver.depthGradient.y);
+    return min(receiver.depth, real(1.0)) - receiver.depthError - depthBias - span * steepness;
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Everything that a technique's file may use, in an order in which each file needs only the ones before it;
+// shader_math.h has the same list for C++.
+#include "shared/blocks.glsl"
+#include "shared/receiver.glsl"
+#include "shared/depth_compare.glsl"
+#include "shared/disc_kernel.glsl"
+#include "shared/disc_visibility.glsl"
+#include "shared/taps.glsl"
+#include "shared/filtered_map.glsl"
+#include "shared/chebyshev.glsl"
+#include "shared/exponential_warp.glsl"
+#include "shared/hamburger.glsl"

@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: MIT
+// Every row of the technique table on maps that the tests make up: its promises (METHODS' list of
+// properties) and its limits, in double, in float with the map as its format stores it, and with
+// the map in halves. No GPU.
+#include "renderer/technique.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "tests/renderer/exact_box.h"
+#include "tests/renderer/exact_disc.h"
+#include "tests/renderer/technique_case.h"
+
+namespace {
+
+using renderer::Property;
+using renderer::Storage;
+using renderer::Technique;
+using testing::HasSubstr;
+using tests::constantsFor;
+using tests::CpuTechnique;
+using tests::exactly;
+using tests::halfPlane;
+using tests::Random;
+using tests::receiverAt;
+using Map = tests::DepthMap;
+
+// Instrumented code does a tenth.
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kShare = 10;
+#else
+constexpr int kShare = 1;
+#endif
+
+bool isFiltered(const Technique& technique) {
+    return technique.prefilter != renderer::Prefilter::none;
+}
+
+TEST(Technique, EveryRowIsCompleteAndHasItsFile) {
+    std::set<std::string_view> names;
+    for (const Technique& technique : renderer::techniques()) {
+        EXPECT_TRUE(names.insert(technique.name).second) << technique.name << " twice";
+        EXPECT_FALSE(technique.title.empty());
+        EXPECT_FALSE(technique.paper.empty());
+        EXPECT_FALSE(technique.cost.empty());
+        EXPECT_EQ(technique.doNotHold.empty(), technique.doNotHoldBecause.empty())
+            << technique.name;
+        EXPECT_LE(technique.parameters.size(), renderer::kMaxTechniqueParameters);
+        for (const renderer::TechniqueParameter& parameter : technique.parameters) {
+            EXPECT_LE(parameter.low, parameter.standard) << parameter.name;
+            EXPECT_LE(parameter.standard, parameter.high) << parameter.name;
+            EXPECT_FALSE(parameter.meaning.empty());
+        }
+        EXPECT_EQ(isFiltered(technique), technique.format != renderer::MapFormat::depth32f);
+        // Rows that share a file must have its parameters in the same places.
+        for (const Technique& other : renderer::techniques()) {
+            if (other.fileName() != technique.fileName()) continue;
+            ASSERT_EQ(other.parameters.size(), technique.parameters.size());
+            for (std::size_t i = 0; i < other.parameters.size(); ++i)
+                EXPECT_EQ(other.parameters[i].name, technique.parameters[i].name);
+        }
+        // Reads every parameter that it names, or throws.
+        const Map map(4, [](double, double) { return 1.0; });
+        EXPECT_NO_THROW(exactly(technique, map, 0.2)(receiverAt(0.5, 0.5, 0.5))) << technique.name;
+    }
+}
+
+TEST(Technique, RefusesUnknownNamesAndValuesOutOfRange) {
+    const Technique& disc = renderer::findTechnique("pcf_disc");
+    const Technique& vsm = renderer::findTechnique("vsm");
+    const auto message = [](const auto& call) -> std::string {
+        try {
+            call();
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "nothing was thrown";
+    };
+    EXPECT_THAT(message([] { renderer::findTechnique("pfc"); }),
+                HasSubstr("technique \"pfc\" is not known; known are: hard, pcf_disc"));
+    renderer::ParameterValues values = disc.standardParameters();
+    EXPECT_EQ(message([&] { setParameter(disc, values, "bias", 1); }),
+              "technique pcf_disc has no parameter \"bias\"; it has: bias_texels");
+    EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", 9); }), HasSubstr("is 9"));
+    EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", NAN); }), HasSubstr("nan"));
+    setParameter(disc, values, "bias_texels", 2);
+    EXPECT_EQ(values[0], 2.0F);
+    values = vsm.standardParameters();
+    EXPECT_THAT(message([&] { setParameter(vsm, values, "gaussian", 0.5F); }),
+                HasSubstr("must be a whole number in [0"));
+    setParameter(vsm, values, "gaussian", 1);
+    EXPECT_EQ(values[*vsm.parameterSlot("gaussian")], 1.0F);
+}
+
+/// Parameters anywhere in their ranges, ends included.
+renderer::ParameterValues randomParameters(const Technique& technique, Random& random) {
+    renderer::ParameterValues values = technique.standardParameters();
+    for (std::size_t i = 0; i < technique.parameters.size(); ++i) {
+        const renderer::TechniqueParameter& parameter = technique.parameters[i];
+        const double low = static_cast<double>(parameter.low);
+        const double high = static_cast<double>(parameter.high);
+        const double where = random();
+        if (where < 0.5) continue;
+        const double value = where < 0.6 ? low : (where < 0.7 ? high : random(low, high));
+        values[i] = static_cast<float>(parameter.whole ? std::round(value) : value);
+    }
+    return values;
+}
+
+// 100,000 receivers per technique and precision, most of them hostile, over 2,000 maps and
+// parameters.
+template <class Real>
+void expectUnitRange(const Technique& technique, Storage storage) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    constexpr double kOdd[] = {0,    1,     -1, 0.5,  1e-30,     -1e-30,
+                               1e30, -1e30, 2,  kNan, kInfinity, -kInfinity};
+    Random random(11);
+    const auto number = [&] {
+        return random() < 0.7 ? random(-0.2, 1.2) : kOdd[random.whole(0, 11)];
+    };
+    for (int trial = 0; trial < 2000 / kShare; ++trial) {
+        const int n = random() < 0.2 ? 1 : random.whole(2, 9);
+        const bool clean = random() < 0.5;
+        const Map map(n, [&](double, double) { return clean ? random() : number(); });
+        const double radius = random() < 0.8 ? random(0, 2.5 / n) : std::abs(number());
+        auto constants = constantsFor(technique, n, radius, randomParameters(technique, random));
+        if (random() < 0.3) constants.kernel.y = number();
+        const CpuTechnique<Real> filter(technique, map, constants, storage);
+        for (int i = 0; i < 50; ++i) {
+            auto receiver = receiverAt(number(), number(), number(), {number(), number()});
+            receiver.footprintUv = number();
+            const double visibility = filter(receiver);
+            ASSERT_TRUE(visibility >= 0 && visibility <= 1)
+                << technique.name << " trial " << trial << ": " << visibility;
+        }
+    }
+}
+
+TEST(Technique, AnyInputGivesANumberInTheUnitRange) {
+    for (const Technique& technique : renderer::techniques()) {
+        expectUnitRange<double>(technique, Storage::exact);
+        expectUnitRange<float>(technique, Storage::asFormat);
+        expectUnitRange<float>(technique, Storage::half);
+    }
+}
+
+// What was stored may be anything, as after a driver's error or in a map of another technique.
+template <class Real>
+void expectUnitRangeOfAnyTexel(const Technique& technique) {
+    Random random(12);
+    const auto constants = [&] {
+        const auto wide = constantsFor(technique, 1, 0, randomParameters(technique, random));
+        if constexpr (std::is_same_v<Real, float>)
+            return tests::toFloat(wide);
+        else
+            return wide;
+    };
+    for (int trial = 0; trial < 100000 / kShare; ++trial) {
+        const auto shadow = constants();
+        renderer::CpuMap<Real> map;
+        map.edge = filteredEdge(shadow);
+        glm::vec<4, Real> texel;
+        for (int i = 0; i < 4; ++i) {
+            const double exponent = random(-40, 38);
+            const double odd = random() < 0.5 ? std::pow(10.0, exponent)
+                                              : std::numeric_limits<double>::quiet_NaN();
+            texel[i] = static_cast<Real>(random() < 0.8 ? random(-1, 1) : odd);
+        }
+        map.texels.assign(static_cast<std::size_t>(map.edge * map.edge), texel);
+        const auto wide = receiverAt(0.5, 0.5, random(-0.1, 1.1), {random(-2, 2), random(-2, 2)});
+        double visibility;
+        if constexpr (std::is_same_v<Real, float>)
+            visibility = static_cast<double>(
+                renderer::cpuVisibility(technique, map, tests::toFloat(wide), shadow));
+        else
+            visibility = renderer::cpuVisibility(technique, map, wide, shadow);
+        ASSERT_TRUE(visibility >= 0 && visibility <= 1)
+            << technique.name << " trial " << trial << ": " << visibility;
+    }
+}
+
+TEST(Technique, AnyStoredTexelGivesANumberInTheUnitRange) {
+    for (const Technique& technique : renderer::techniques()) {
+        if (!isFiltered(technique)) continue;
+        expectUnitRangeOfAnyTexel<double>(technique);
+        expectUnitRangeOfAnyTexel<float>(technique);
+    }
+}
+
+TEST(Technique, ClearedMapIsLitAndSolidMapIsDark) {
+    for (const Technique& technique : renderer::techniques())
+        for (const double radius : {0.0, 0.02, 0.3, 1.0}) {
+            const Map cleared(16, [](double, double) { return 1.0; });
+            const auto constants = constantsFor(technique, 16, radius);
+            const CpuTechnique<float> lit(technique, cleared, constants);
+            const double least = 1 - static_cast<double>(technique.planeDarkening);
+            EXPECT_GE(lit(receiverAt(0.5, 0.5, 1.0)), least) << technique.name;
+            EXPECT_GE(lit(receiverAt(0.5, 0.5, 1.7)), least) << technique.name << " beyond the end";
+            // A wider kernel reaches over the map's edge, where it is lit.
+            if (radius > 0.5 && technique.soft) continue;
+            // PCSS has the kernel's radius at this distance; vsm16's least variance leaks .008.
+            const Map solid(16, [](double, double) { return 0.25; });
+            EXPECT_NEAR(CpuTechnique<float>(technique, solid, constants)(receiverAt(0.5, 0.5, 0.5)),
+                        0, 0.01)
+                << technique.name << " radius " << radius;
+        }
+}
+
+TEST(Technique, OutsideTheMapIsLit) {
+    const Map solid(8, [](double, double) { return 0.0; });
+    for (const Technique& technique : renderer::techniques())
+        for (const auto& [u, v] : {std::pair{-0.5, 0.5}, {1.5, 0.5}, {0.5, -0.5}, {0.5, 1.5}})
+            EXPECT_EQ(exactly(technique, solid, 0.2)(receiverAt(u, v, 0.5)), 1.0) << technique.name;
+}
+
+// A depth that is no number casts nothing; one before the light or behind the far end is clamped.
+TEST(Technique, CastersOutOfRangeAreClampedOrLeftOut) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const Technique& technique : renderer::techniques())
+        for (const auto& [odd, like] :
+             {std::pair{-3.0, 0.0}, {-kInfinity, 0.0}, {7.0, 1.0}, {kInfinity, 1.0}, {kNan, 1.0}}) {
+            const Map map(9, [&](double u, double) { return u < 0.4 ? odd : 0.7; });
+            const Map clean(9, [&](double u, double) { return u < 0.4 ? like : 0.7; });
+            for (double u = 0.1; u < 0.9; u += 0.1)
+                EXPECT_EQ(exactly(technique, map, 0.15)(receiverAt(u, 0.5, 0.6)),
+                          exactly(technique, clean, 0.15)(receiverAt(u, 0.5, 0.6)))
+                    << technique.name << " " << odd;
+        }
+}
+
+TEST(Technique, FartherReceiversAreNeverLighter) {
+    Random random(5);
+    for (const Technique& technique : renderer::techniques()) {
+        if (!technique.holds(Property::monotoneInDepth)) continue;
+        for (int trial = 0; trial < 300; ++trial) {
+            const Map map(12, [&](double, double) { return random(); });
+            const double u = random();
+            const double v = random();
+            const auto filter = exactly(technique, map, random(0, 0.4));
+            const glm::dvec2 gradient(random(-1, 1), random(-1, 1));
+            double last = 1;
+            for (double depth = -0.2; depth <= 1.2; depth += 0.05) {
+                const double now = filter(receiverAt(u, v, depth, gradient));
+                EXPECT_LE(now, last + 1e-9) << technique.name;  // rounding
+                last = now;
+            }
+        }
+    }
+}
+
+// Chebyshev's and Markov's inequalities, on the depths under the kernel.
+TEST(Technique, UpperBoundsAreNoLessThanTheLitShareOfTheKernel) {
+    Random random(6);
+    for (const std::string_view name : {"vsm", "vsm16", "vsm_split", "esm", "evsm2", "evsm4"}) {
+        const Technique& technique = renderer::findTechnique(name);
+        for (int trial = 0; trial < 500; ++trial) {
+            const Map map(9, [&](double, double) { return random(); });
+            // The kernel covers 8.5 x 8.5 texels around the middle one.
+            const double radius = 4.25 / 9 * 2 / std::sqrt(3.0);
+            const double depth = random();
+            double lit = 0;
+            for (int j = 0; j < 9; ++j)
+                for (int i = 0; i < 9; ++i)
+                    if (static_cast<double>(map.view().at(i, j)) >= depth)
+                        lit += (i % 8 == 0 ? 0.75 : 1) * (j % 8 == 0 ? 0.75 : 1) / (8.5 * 8.5);
+            EXPECT_GE(exactly(technique, map, radius)(receiverAt(0.5, 0.5, depth)), lit - 1e-9)
+                << name;
+        }
+    }
+}
+
+TEST(Technique, MomentsShadowNoMoreThanIsInShadow) {
+    Random random(7);
+    const Technique& technique = renderer::findTechnique("msm");
+    renderer::ParameterValues parameters = technique.standardParameters();
+    setParameter(technique, parameters, "moment_bias", 0);
+    const double radius = 4.25 / 9 * 2 / std::sqrt(3.0);
+    for (int trial = 0; trial < 500; ++trial) {
+        const Map map(9, [&](double, double) { return random(); });
+        const double depth = random();
+        double lit = 0;
+        for (int j = 0; j < 9; ++j)
+            for (int i = 0; i < 9; ++i)
+                if (static_cast<double>(map.view().at(i, j)) >= depth)
+                    lit += (i % 8 == 0 ? 0.75 : 1) * (j % 8 == 0 ? 0.75 : 1) / (8.5 * 8.5);
+        const CpuTechnique<double> filter(
+            technique, map, constantsFor(technique, 9, radius, parameters), Storage::exact);
+        EXPECT_GE(filter(receiverAt(0.5, 0.5, depth)), lit - 1e-9);
+    }
+}
+
+TEST(Technique, PlaneDoesNotShadowItselfAtAnyTilt) {
+    for (const Technique& technique : renderer::techniques()) {
+        if (!technique.holds(Property::planeLit)) continue;
+        const double least = 1 - static_cast<double>(technique.planeDarkening);
+        for (const int n : {16, 64, 101})
+            for (const glm::dvec2 gradient :
+                 {glm::dvec2(0, 0), {0.4, 0}, {-0.3, 0.5}, {0.01, -0.6}}) {
+                const auto plane = [&](double u, double v) {
+                    return 0.5 + gradient.x * (u - 0.5) + gradient.y * (v - 0.5);
+                };
+                const Map map(n, plane);
+                const auto exact = exactly(technique, map, 0.04);
+                const CpuTechnique<float> asStored(technique, map,
+                                                   constantsFor(technique, n, 0.04));
+                Random random(9);
+                for (int i = 0; i < 50; ++i) {
+                    const double u = random(0.05, 0.95);
+                    const double v = random(0.05, 0.95);
+                    const auto receiver = receiverAt(u, v, plane(u, v), gradient);
+                    EXPECT_GE(exact(receiver), least) << technique.name << " N " << n;
+                    EXPECT_GE(asStored(receiver), least) << technique.name << " N " << n << " tilt "
+                                                         << gradient.x << " " << gradient.y;
+                }
+            }
+    }
+}
+
+// The gradients that the map itself gives are those of the plane, away from its rim; with them the
+// receiver's depth follows the plane. Without, half of every slope goes dark (Schueler 2006, figure
+// 4.2.3).
+TEST(GradientShadowMap, SlopesAreLitByEveryGradientAndHalfDarkWithoutOffsets) {
+    const Technique& gsm = renderer::findTechnique("gsm");
+    const glm::dvec2 gradient(0.5, -0.3);
+    const Map map(64, [&](double u, double v) {
+        return 0.5 + gradient.x * (u - 0.5) + gradient.y * (v - 0.5);
+    });
+    for (const float source : {0.0F, 1.0F, 2.0F})
+        for (const float offsets : {1.0F, 0.0F}) {
+            renderer::ParameterValues parameters = gsm.standardParameters();
+            setParameter(gsm, parameters, "gradient", source);
+            setParameter(gsm, parameters, "offsets", offsets);
+            const CpuTechnique<float> filter(gsm, map, constantsFor(gsm, 64, 0.05, parameters));
+            Random random(4);
+            double sum = 0;
+            for (int i = 0; i < 100; ++i) {
+                const double u = random(0.2, 0.8);
+                const double v = random(0.2, 0.8);
+                const double depth = 0.5 + gradient.x * (u - 0.5) + gradient.y * (v - 0.5);
+                sum += filter(receiverAt(u, v, depth, gradient)) / 100;
+            }
+            if (offsets == 1)
+                EXPECT_GE(sum, 0.9999) << "gradient " << source;  // rounding of the regression
+            else
+                EXPECT_NEAR(sum, 0.6, 0.1) << "half, and the band of one texel";
+        }
+}
+
+/// A planar occluder over a parallel receiver, where every technique that promises to converge
+/// comes to the kernel's own profile.
+/// (At this distance PCSS has the kernel's radius.)
+constexpr double kReceiver = 0.7;
+constexpr double kOccluder = kReceiver - 0.25;
+
+double profile(const Technique& technique, double distance, double radius, double angleRad) {
+    if (!technique.soft) return distance > 0 ? 1 : 0;
+    if (isFiltered(technique))
+        return tests::boxProfile(distance, radius * std::sqrt(0.75), angleRad);
+    return tests::discProfile(distance / radius);
+}
+
+/// RMS difference from the profile of a straight edge at an angle to the texels.
+double edgeError(const Technique& technique, int n, double phase, double radius, double angleRad) {
+    const double s = std::sin(angleRad);
+    const double c = std::cos(angleRad);
+    const Map map = halfPlane(n, angleRad * 180 / std::numbers::pi, phase, kOccluder, kReceiver);
+    const auto filter = exactly(technique, map, radius);
+    double sum = 0;
+    int count = 0;
+    for (double along = -0.2; along < 0.2; along += 0.013)
+        for (double x = -1.19; x < 1.2; x += 0.05, ++count) {
+            const double distance = x * radius + phase / n;
+            const double v = filter(receiverAt(0.5 + along * c - s * distance,
+                                               0.5 + along * s + c * distance, kReceiver));
+            const double truth = profile(technique, x * radius, radius, angleRad);
+            sum += (v - truth) * (v - truth);
+        }
+    return std::sqrt(sum / count);
+}
+
+// The median over sub-texel phases: a single phase may happen to be right.
+TEST(Technique, ErrorFallsAsNGrows) {
+    for (const Technique& technique : renderer::techniques()) {
+        if (!technique.holds(Property::errorFallsWithN)) continue;
+        double last = 1;
+        for (const int n : {48, 96, 192}) {
+            std::vector<double> errors;
+            for (const double phase : {0.03, 0.17, 0.31, 0.58, 0.72})
+                errors.push_back(edgeError(technique, n, phase, 0.05, 17 * std::numbers::pi / 180));
+            std::nth_element(errors.begin(), errors.begin() + 2, errors.end());
+            EXPECT_LT(errors[2], 0.95 * last) << technique.name << " N " << n;
+            last = errors[2];
+        }
+        // At 9.6 texels in a radius the profile is the kernel's; a technique with a threshold of
+        // its own (light bleeding, biases) would stay away from it.
+        EXPECT_LT(last, technique.soft ? 0.01 : 0.2) << technique.name;
+    }
+}
+
+/// Distance between the places of 10 % and 90 % across an edge, averaged along it.
+double edgeWidth(const Technique& technique, int n, double radius, double angleRad) {
+    const double s = std::sin(angleRad);
+    const double c = std::cos(angleRad);
+    const Map map = halfPlane(n, angleRad * 180 / std::numbers::pi, 0.2, kOccluder, kReceiver);
+    const auto filter = exactly(technique, map, radius);
+    constexpr int kSteps = 120;
+    double crossing[2] = {0, 0};
+    for (int i = 0; i < kSteps; ++i) {
+        const double distance = (-1.5 + 3.0 * i / kSteps) * radius;
+        double mean = 0;
+        constexpr int kPlaces = 40;
+        for (int k = 0; k < kPlaces; ++k) {
+            const double along = (k + 0.5) / kPlaces * 0.3 - 0.15;
+            mean += filter(receiverAt(0.5 + along * c - s * distance,
+                                      0.5 + along * s + c * distance, kReceiver)) /
+                    kPlaces;
+        }
+        if (mean < 0.1) crossing[0] = distance;
+        if (mean < 0.9) crossing[1] = distance;
+    }
+    return crossing[1] - crossing[0];
+}
+
+// The mean over the edge is the kernel's profile convolved with a texel (and the bilinear lookup's
+// tent): at 3 texels in a radius that is 4 %, steps of the measurement 2 %.
+TEST(Technique, SoftnessDoesNotDependOnNAndIsTheDiscs) {
+    constexpr double kRadius = 0.06;
+    constexpr double kAngle = 0.4;
+    const double disc = tests::discProfileWidth() * kRadius;
+    for (const Technique& technique : renderer::techniques()) {
+        if (!technique.holds(Property::softnessIndependentOfN)) continue;
+        // A few taps make steps of the edge, and 10 % may lie on either side of one.
+        const double tolerance = technique.holds(Property::errorFallsWithN) ? 0.08 : 0.25;
+        const double fine = edgeWidth(technique, 256, kRadius, kAngle);
+        for (const int n : {50, 100})
+            EXPECT_NEAR(edgeWidth(technique, n, kRadius, kAngle) / fine, 1, tolerance)
+                << technique.name << " N " << n;
+        EXPECT_NEAR(fine / disc, 1, tolerance) << technique.name;
+    }
+}
+
+// What a bias counts in texels or reaches shrinks with N in the same call: nothing is kept.
+TEST(Technique, BiasFollowsN) {
+    for (const Technique& technique : renderer::techniques()) {
+        if (!technique.holds(Property::biasFollowsN)) continue;
+        auto slot = technique.parameterSlot("bias_texels");
+        if (!slot) slot = technique.parameterSlot("bias");
+        ASSERT_TRUE(slot) << technique.name;
+        renderer::ParameterValues parameters = technique.standardParameters();
+        parameters[*slot] = 4;
+        const glm::dvec2 gradient(0.4, 0);
+        const auto litFrom = [&](int n) {  // how far behind a plane a receiver is still lit
+            const auto plane = [&](double u, double) { return 0.5 + gradient.x * (u - 0.5); };
+            const Map map(n, plane);
+            const CpuTechnique<double> filter(
+                technique, map, constantsFor(technique, n, 0.01, parameters), Storage::exact);
+            double behind = 0;
+            while (behind < 0.2 && filter(receiverAt(0.5, 0.5, 0.5 + behind, gradient)) >= 0.999)
+                behind += 1e-5;
+            return behind;
+        };
+        const double coarse = litFrom(32);
+        const double fine = litFrom(128);
+        EXPECT_GT(coarse - fine, 0.8 * 4 * gradient.x * (1.0 / 32 - 1.0 / 128)) << technique.name;
+    }
+}
+
+}  // namespace
