@@ -262,6 +262,10 @@ std::string methodParagraph(const SlopeAnalysis& analysis) {
                                         shortText(*slope.worstArtifactPx) + " px. "
                                   : "does not reject r = c a (" + p + "). ";
     }
+    text += study.pxPerDeg ? "The screens showed " + fixedText(*study.pxPerDeg, 1) +
+                                 " px per degree of visual angle (mean over sessions). "
+                           : "How many px a degree had is not known for every session: sizes are "
+                             "in px alone. ";
     if (!slope.law.converged) text += "The fit did not converge: " + slope.law.message + ". ";
     if (slope.law.lapseAtBound) {
         text +=

@@ -10,6 +10,8 @@
 
 namespace analysis {
 
+inline constexpr double kNormal95 = 1.959963984540054;  ///< half an interval, in standard errors
+
 struct ObserverSlope {
     /// log10 of the observer's c over the mean observer's, and its standard error: the mean over
     /// the cells with a threshold, each weighted by 1 / (omega^2 + its squared error). Absent where

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "analysis/number_text.h"
+#include "analysis/observer_slopes.h"
 
 namespace analysis {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 using Row = std::vector<std::string>;
 
 constexpr const char* kUnknown = "n/a";
+constexpr std::size_t kScreeningRows = 40;  // in the report, chosen by eye
 
 std::string full(double value) {
     char text[64];
@@ -162,6 +164,31 @@ TextTable thresholdFile(const SlopeAnalysis& analysis) {
     return table;
 }
 
+TextTable observerFile(const SlopeAnalysis& analysis) {
+    TextTable table{.name = "observers",
+                    .caption = "",
+                    .head = {"participant", "conditions", "censored", "worst_group_c", "c_low",
+                             "c_high", "worst_group_c_shrunken"},
+                    .rows = {}};
+    const std::vector<ObserverSlope> slopes = observerSlopes(analysis);
+    const double mean = analysis.slope.headline.value;
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        const ObserverSlope& slope = slopes[i];
+        Row row = {analysis.study.observers[i].id, std::to_string(slope.cells),
+                   std::to_string(slope.censored)};
+        if (slope.own) {
+            const double half = kNormal95 * slope.standardError;
+            appendSlope(row, mean + *slope.own,
+                        records::Interval{mean + *slope.own - half, mean + *slope.own + half});
+        } else {
+            appendSlope(row, std::nullopt, std::nullopt);
+        }
+        row.push_back(full(std::pow(10.0, mean + slope.shrunken)));
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
 TextTable estimatorFile(const SlopeAnalysis& analysis) {
     TextTable table{.name = "estimators",
                     .caption = "",
@@ -175,6 +202,11 @@ TextTable estimatorFile(const SlopeAnalysis& analysis) {
     return table;
 }
 
+std::string screeningVerdict(const ScreenedObserver& row) {
+    if (row.excluded) return row.reason;
+    return row.reason.empty() ? "no" : std::string("kept: ").append(row.reason);
+}
+
 TextTable screeningTable(const SlopeAnalysis& analysis) {
     TextTable table{.name = "screening",
                     .caption = "Screening, by rules fixed before any slope was seen.",
@@ -186,10 +218,7 @@ TextTable screeningTable(const SlopeAnalysis& analysis) {
                               std::to_string(row.falseAlarms),
                               fixedText(row.falseAlarmLowerBound, 3),
                               std::to_string(row.catchTrials), std::to_string(row.catchFailures),
-                              std::to_string(row.runsAtLimit.size()),
-                              row.excluded         ? row.reason
-                              : row.reason.empty() ? "no"
-                                                   : "kept: " + row.reason});
+                              std::to_string(row.runsAtLimit.size()), screeningVerdict(row)});
     }
     return table;
 }
@@ -274,21 +303,58 @@ TextTable estimatorReport(const SlopeAnalysis& analysis) {
     return table;
 }
 
+// The columns of the task alone; where a table would be long, those who stand out.
+TextTable screeningReport(const SlopeAnalysis& analysis) {
+    const bool yesNo = analysis.study.task == records::Task::yesNo;
+    TextTable table{.name = "screening",
+                    .caption = "Screening, by rules fixed before any slope was seen.",
+                    .head = {"participant", "trials"},
+                    .rows = {}};
+    const std::vector<std::string> own =
+        yesNo ? std::vector<std::string>{"references", "false alarms", "lower 95 % bound"}
+              : std::vector<std::string>{"catch trials", "catch failures"};
+    table.head.insert(table.head.end(), own.begin(), own.end());
+    table.head.insert(table.head.end(), {"runs at a display limit", "left out"});
+    std::size_t unremarkable = 0;
+    for (const ScreenedObserver& row : analysis.screening) {
+        const bool remarkable = !row.reason.empty() || !row.runsAtLimit.empty();
+        if (!remarkable && analysis.screening.size() > kScreeningRows) {
+            ++unremarkable;
+            continue;
+        }
+        Row cells = {row.id, std::to_string(row.trials)};
+        if (yesNo) {
+            cells.push_back(std::to_string(row.references));
+            cells.push_back(std::to_string(row.falseAlarms));
+            cells.push_back(fixedText(row.falseAlarmLowerBound, 3));
+        } else {
+            cells.push_back(std::to_string(row.catchTrials));
+            cells.push_back(std::to_string(row.catchFailures));
+        }
+        cells.push_back(std::to_string(row.runsAtLimit.size()));
+        cells.push_back(screeningVerdict(row));
+        table.rows.push_back(cells);
+    }
+    if (unremarkable > 0) {
+        table.caption.append(" The other ")
+            .append(std::to_string(unremarkable))
+            .append(" broke no rule: screening.tsv.");
+    }
+    return table;
+}
+
 }  // namespace
 
 std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
-    return {groupFile(analysis), conditionFile(analysis, reference), thresholdFile(analysis),
+    return {groupFile(analysis),     conditionFile(analysis, reference),
+            thresholdFile(analysis), observerFile(analysis),
             estimatorFile(analysis), screeningTable(analysis)};
 }
 
 std::vector<TextTable> reportTables(const SlopeAnalysis& analysis,
                                     const ReferenceSizes& reference) {
-    TextTable screening = screeningTable(analysis);
-    screening.head = {"participant",    "trials",          "references",
-                      "false alarms",   "lower 95 %",      "catch trials",
-                      "catch failures", "runs at a limit", "left out"};
     return {groupReport(analysis), conditionReport(analysis, reference), estimatorReport(analysis),
-            screening};
+            screeningReport(analysis)};
 }
 
 std::string tsvText(const TextTable& table) {

@@ -20,7 +20,7 @@ struct TextTable {
 };
 
 /// Full digits, `n/a` for what cannot be had: groups, conditions, thresholds (observer x
-/// condition), estimators, screening.
+/// condition), observers, estimators, screening.
 std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference);
 /// For people: groups, conditions, estimators, screening.
 std::vector<TextTable> reportTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference);

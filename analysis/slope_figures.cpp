@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMostRows = 60;        // of groups, and of observers with their names
 constexpr std::size_t kMostObservers = 400;  // beyond: evenly spaced
-constexpr double kNormal95 = 1.959963984540054;
 
 double c(double log10c) {
     return std::pow(10.0, log10c);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Everything that fit_slope leaves in its folder: slope.json, report.html, figures (SVG, with the
-// gnuplot script that draws each), and the tables as TSV.
+// Everything that fit_slope leaves in its folder: slope.json, report.html, figures/ (SVG and PDF,
+// with the gnuplot script that draws each), the tables as TSV, and data.sha256, the checksums of
+// the trial tables.
 #pragma once
 
 #include <filesystem>

@@ -71,7 +71,7 @@ th { font-weight: 600; background: var(--raised); vertical-align: bottom; positi
 .number { text-align: right; white-space: nowrap; }
 tbody tr:hover { background: var(--raised); }
 pre {
-  margin: 1rem 0 1.5rem; padding: .9rem 1.1rem; overflow-x: auto; background: var(--raised); border-radius: 8px;
+  margin: 1rem 0 1.5rem; padding: .9rem 1.1rem; overflow: auto; max-height: 24rem; background: var(--raised); border-radius: 8px;
   font: .85rem/1.5 ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace;
 }
 @media (max-width: 34rem) {
@@ -98,7 +98,7 @@ pre {
   .scroll { overflow: visible; max-height: none; border: 0; width: auto; }
   .gallery { grid-template-columns: 1fr 1fr; }
   .paper svg { max-height: 10cm; }
-  pre { white-space: pre-wrap; overflow-wrap: anywhere; }
+  pre { max-height: none; white-space: pre-wrap; overflow-wrap: anywhere; }
 }
 )css";
 

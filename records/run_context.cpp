@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "records/run_context.h"
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "program/build_info.h"
 #include "records/json_fields.h"
@@ -18,6 +21,21 @@ std::string utcNow() {
     ::gmtime_r(&now, &utc);
     char text[sizeof "2026-01-31T12:00:00Z"];
     return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+// So that the command can be given again as it stands.
+std::string quotedForShell(const std::string& word) {
+    constexpr std::string_view kPlain = "%+,-./:=@_";
+    const bool plain = std::all_of(word.begin(), word.end(), [&](unsigned char c) {
+        return std::isalnum(c) || kPlain.find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (plain && !word.empty()) return word;
+    std::string quoted = "'";
+    for (const char c : word) {
+        if (c == '\'') quoted += "'\\'";  // close, an escaped quote, open again
+        quoted += c;
+    }
+    return quoted + "'";
 }
 
 template <typename Json>
@@ -91,7 +109,10 @@ std::string contextText(const RunContext& context) {
     add("build", context.buildType + ", " + context.compiler);
     add("date", context.date);
     std::string command;
-    for (const std::string& word : context.command) command += (command.empty() ? "" : " ") + word;
+    for (const std::string& word : context.command) {
+        if (!command.empty()) command += ' ';
+        command += quotedForShell(word);
+    }
     add("command", command);
     if (context.seed) add("seed", std::to_string(*context.seed));
     if (context.glRenderer) add("GL", *context.glRenderer);
