@@ -93,7 +93,7 @@ PanelChoice choosePanels(const SlopeAnalysis& analysis, bool severalSizesOnly, s
                     [&](const Series& series) { return slopeOfGroup(analysis, series.group); }) ||
                 fewer;
     }
-    if (fewer) {
+    if (fewer && mostSeries > 1) {
         choice.leftOut +=
             " Of each, the " + std::to_string(mostSeries) + " groups with the largest c.";
     }

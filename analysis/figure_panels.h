@@ -29,7 +29,8 @@ struct PanelChoice {
     std::string leftOut = {};  ///< a sentence for the caption; empty where nothing is
 };
 
-/// At most `most` panels of at most `mostSeries` series: those with the largest slopes.
+/// At most `most` panels of at most `mostSeries` series: those with the largest slopes. A
+/// figure of one series each says so by itself.
 PanelChoice choosePanels(const SlopeAnalysis& analysis, bool severalSizesOnly,
                          std::size_t most = 12, std::size_t mostSeries = 7);
 

@@ -28,6 +28,8 @@ std::optional<Figure> slopeAgainstLight(const SlopeAnalysis& analysis);
 Figure slopesByGroup(const SlopeAnalysis& analysis);
 /// Every observer's c with its interval (two observers or more).
 std::optional<Figure> slopesByObserver(const SlopeAnalysis& analysis);
+/// Share of observers who still notice, against c; absent with one observer.
+std::optional<Figure> audienceShares(const SlopeAnalysis& analysis);
 /// Answers in bins of r/a with the fitted curve: a panel per condition, or per group where there
 /// are many conditions.
 Figure psychometricFunctions(const SlopeAnalysis& analysis);

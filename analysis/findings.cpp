@@ -133,6 +133,87 @@ std::string contrastFinding(const SlopeAnalysis& analysis) {
                                : "Less light needs more blur: c of full light is too small there.");
 }
 
+// log10 difference as a factor on c.
+std::string factorText(double log10, const std::optional<records::Interval>& ci95) {
+    return estimateText(std::pow(10.0, log10), powerOfTen(ci95));
+}
+
+std::string halvesFinding(const SlopeAnalysis& analysis) {
+    if (!analysis.secondHalf) return "";
+    const ObserverMean& shift = *analysis.secondHalf;
+    const std::string found = "In the second half of their trials observers' c is " +
+                              factorText(shift.value, shift.ci95) + " times that of the first half";
+    if (!shift.pValue) return found + ".";
+    const std::string tested = found + " (" + pValueText(*shift.pValue) + "). ";
+    if (*shift.pValue >= kLevel) {
+        return tested + "No practice or fatigue is demonstrable: c can be taken over all trials.";
+    }
+    return tested +
+           (shift.value > 0
+                ? "They learned to see the artifact: c is a mean over the learning, and too small "
+                  "for practised eyes."
+                : "This speaks for fatigue: c is a mean over it, and too small for "
+                  "fresh eyes.");
+}
+
+std::string dispersionFinding(const SlopeAnalysis& analysis) {
+    if (!analysis.fitCheck.dispersion) return "";
+    const Dispersion& spread = *analysis.fitCheck.dispersion;
+    const std::string found = "Pearson's X^2 over its degrees of freedom is " +
+                              fixedText(spread.ratio(), 2) + " where the model has 1 (" +
+                              pValueText(spread.pValue) + "). ";
+    if (spread.pValue >= kLevel) {
+        return found + "The answers scatter no more than the model says: its intervals stand.";
+    }
+    return found +
+           "The answers scatter more than the model says: its intervals are somewhat too short. "
+           "Look at the psychometric functions and the residuals for where.";
+}
+
+std::string staircaseFinding(const SlopeAnalysis& analysis) {
+    if (!analysis.staircases) return "";
+    const StaircaseComparison& staircases = *analysis.staircases;
+    const ObserverMean& difference = staircases.difference;
+    std::string text = "The staircases' own estimates, which assume beta " +
+                       shortText(staircases.assumedBeta) + ", are " +
+                       factorText(difference.value, difference.ci95) +
+                       " times those refitted to the same trials (scatter of a single one " +
+                       fixedText(staircases.scatter, 3) + " log10). ";
+    if (!difference.ci95) return text;
+    const bool differ = difference.ci95->low > 0 || difference.ci95->high < 0;
+    return text + (differ ? "A slope read off the staircases would be off by that factor; c here "
+                            "is from the refit."
+                          : "They agree on average.");
+}
+
+std::string betaFinding(const SlopeAnalysis& analysis) {
+    std::string text;
+    for (const BetaEstimate& beta : analysis.betas) {
+        text += (text.empty() ? "" : "; ") + std::string(records::toText(beta.pattern)) + " " +
+                estimateText(beta.beta, beta.ci95);
+        if (beta.priorShare > 0.5) text += " (mostly the prior: too few trials to tell)";
+    }
+    if (text.empty()) return "";
+    return "The psychometric slope beta is " + text +
+           "; the published study took 3.5. It says what another criterion costs: the flatter the "
+           "curve, the more radius it takes to hide what is left.";
+}
+
+std::string audienceFinding(const SlopeAnalysis& analysis) {
+    return analysis.audience ? audienceSentence(*analysis.audience) : "";
+}
+
+std::string bootstrapFinding(const SlopeAnalysis& analysis) {
+    if (!analysis.bootstrap) return "";
+    const ObserverBootstrap& bootstrap = *analysis.bootstrap;
+    std::string text = std::to_string(bootstrap.draws) + " times the observers were drawn anew";
+    if (bootstrap.failed > 0) text += ", of which " + std::to_string(bootstrap.failed) + " failed";
+    if (!bootstrap.headline) return text + ": too few draws came through for an interval.";
+    const auto ci95 = powerOfTen(bootstrap.headline);
+    return text + ": c lies in [" + fixedText(ci95->low, 2) + ", " + fixedText(ci95->high, 2) +
+           "]. It assumes no distribution of observers, and is too short with few of them.";
+}
+
 std::string screeningFinding(const SlopeAnalysis& analysis) {
     std::vector<std::string> excluded;
     for (const ScreenedObserver& row : analysis.screening) {
@@ -194,14 +275,41 @@ std::string intervalText(const SlopeAnalysis& analysis) {
            std::to_string(analysis.options.seed) + "). ";
 }
 
+// What else was computed, each only where it was.
+std::string comparisonText(const SlopeAnalysis& analysis) {
+    std::vector<std::string> done;
+    if (analysis.secondHalf) {
+        done.push_back(
+            "a shift of each observer's thresholds in the second half of the trials (t "
+            "test over observers)");
+    }
+    if (analysis.fitCheck.dispersion) {
+        done.push_back("Pearson's X^2 of answers forecast from the earlier ones");
+    }
+    if (analysis.staircases) done.push_back("the staircases' own posterior means");
+    if (analysis.twoStage.log10c) done.push_back("two-stage means of single thresholds");
+    if (analysis.lines.throughOrigin) done.push_back("least squares on the threshold radii");
+    if (analysis.pooled && analysis.pooled->converged) done.push_back("pooled maximum likelihood");
+    if (analysis.bootstrap) {
+        done.push_back("a bootstrap over observers (" + std::to_string(analysis.bootstrap->draws) +
+                       " draws)");
+    }
+    if (done.empty()) return "";
+    std::string text = "For comparison: ";
+    for (std::size_t i = 0; i < done.size(); ++i) text += (i > 0 ? ", " : "") + done[i];
+    return text + ". ";
+}
+
 }  // namespace
 
 std::vector<Finding> findings(const SlopeAnalysis& analysis) {
-    std::vector<Finding> found = {{"Law r = c a", lawFinding(analysis)},
-                                  {"Groups", groupFinding(analysis)},
-                                  {"Observers", observerFinding(analysis)},
-                                  {"Contrast", contrastFinding(analysis)},
-                                  {"Screening", screeningFinding(analysis)}};
+    std::vector<Finding> found = {
+        {"Law r = c a", lawFinding(analysis)},      {"Groups", groupFinding(analysis)},
+        {"Observers", observerFinding(analysis)},   {"Audience", audienceFinding(analysis)},
+        {"Contrast", contrastFinding(analysis)},    {"Steepness", betaFinding(analysis)},
+        {"Practice", halvesFinding(analysis)},      {"Scatter", dispersionFinding(analysis)},
+        {"Staircases", staircaseFinding(analysis)}, {"Bootstrap", bootstrapFinding(analysis)},
+        {"Screening", screeningFinding(analysis)}};
     std::erase_if(found, [](const Finding& finding) { return finding.text.empty(); });
     for (const std::string& absent : analysis.absent) {
         found.push_back({"Not available", absent + "."});
@@ -262,6 +370,7 @@ std::string methodParagraph(const SlopeAnalysis& analysis) {
                                         shortText(*slope.worstArtifactPx) + " px. "
                                   : "does not reject r = c a (" + p + "). ";
     }
+    text += comparisonText(analysis);
     text += study.pxPerDeg ? "The screens showed " + fixedText(*study.pxPerDeg, 1) +
                                  " px per degree of visual angle (mean over sessions). "
                            : "How many px a degree had is not known for every session: sizes are "

@@ -5,15 +5,11 @@
 #include <cstdio>
 
 namespace analysis {
-namespace {
-
-std::string withInterval(double value, const std::optional<records::Interval>& ci95) {
+std::string estimateText(double value, const std::optional<records::Interval>& ci95) {
     if (!ci95) return fixedText(value, 2) + " (no interval)";
     return fixedText(value, 2) + " [" + fixedText(ci95->low, 2) + ", " + fixedText(ci95->high, 2) +
            "]";
 }
-
-}  // namespace
 
 std::string fixedText(double value, int decimals) {
     char text[64];
@@ -44,7 +40,7 @@ records::Estimate slopeEstimate(double log10c, const std::optional<records::Inte
 }
 
 std::string slopeText(double log10c, const std::optional<records::Interval>& ci95) {
-    return withInterval(std::pow(10.0, log10c), powerOfTen(ci95));
+    return estimateText(std::pow(10.0, log10c), powerOfTen(ci95));
 }
 
 std::string slopeText(const LinearEstimate& estimate) {
@@ -52,7 +48,7 @@ std::string slopeText(const LinearEstimate& estimate) {
 }
 
 std::string plainText(const LinearEstimate& estimate) {
-    return withInterval(estimate.value, estimate.ci95());
+    return estimateText(estimate.value, estimate.ci95());
 }
 
 }  // namespace analysis

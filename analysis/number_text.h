@@ -15,6 +15,8 @@ std::string fixedText(double value, int decimals);  ///< "3.41"
 std::string shortText(double value);                ///< up to six digits: "0.6465", "10"
 std::string pValueText(double p);                   ///< "p = .043", "p < .001"
 
+/// "3.41 [3.20, 3.63]", "3.41 (no interval)".
+std::string estimateText(double value, const std::optional<records::Interval>& ci95);
 /// 10^ of a log10 estimate: "3.41 [3.20, 3.63]", "3.41 (no interval)".
 std::string slopeText(double log10c, const std::optional<records::Interval>& ci95);
 std::string slopeText(const LinearEstimate& estimate);

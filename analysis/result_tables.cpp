@@ -76,6 +76,31 @@ std::vector<Estimator> estimators(const SlopeAnalysis& analysis) {
                         std::log10(*analysis.lines.throughOrigin),
                         {}});
     }
+    if (const auto& line = analysis.lines.powerLaw) {
+        rows.push_back({"all conditions, least squares of log r on log a, at a = " +
+                            shortText(line->referencePx) + " px, exponent " +
+                            fixedText(line->exponent, 2),
+                        "radii scatter by a factor; thresholds are independent; no interval",
+                        line->log10c,
+                        {}});
+    }
+    if (const auto& line = analysis.lines.affine; line && line->slope > 0) {
+        rows.push_back({"slope of r = " + fixedText(line->interceptPx, 1) +
+                            " px + s a, least squares in px (is not c)",
+                        "radii scatter equally at every size; no interval",
+                        std::log10(line->slope),
+                        {}});
+    }
+    if (analysis.bootstrap) {
+        const std::string draws = std::to_string(analysis.bootstrap->draws) + " draws";
+        rows.push_back({"headline, bootstrap over observers, " + draws,
+                        "no distribution of the observers; too short with few of them",
+                        slope.headline.value, analysis.bootstrap->headline});
+        rows.push_back({"90th-percentile observer, bootstrap over observers, " + draws, "likewise",
+                        slope.headline.value90, analysis.bootstrap->ninetieth});
+        rows.push_back({"overall, bootstrap over observers, " + draws, "likewise",
+                        analysis.overall.value, analysis.bootstrap->overall});
+    }
     if (analysis.pooled && analysis.pooled->converged) {
         rows.push_back({"overall, pooled maximum likelihood",
                         "all trials from one observer; an interval would be far too short",
@@ -205,6 +230,66 @@ TextTable estimatorFile(const SlopeAnalysis& analysis) {
 std::string screeningVerdict(const ScreenedObserver& row) {
     if (row.excluded) return row.reason;
     return row.reason.empty() ? "no" : std::string("kept: ").append(row.reason);
+}
+
+std::string percentText(double share) {
+    return shortText(100 * share) + " %";
+}
+
+TextTable betaTable(const SlopeAnalysis& analysis, bool forPeople) {
+    TextTable table{
+        .name = "beta",
+        .caption =
+            "Psychometric slope beta of each pattern; the published study used 3.5. The prior is "
+            "log-normal around 3.5 (ln sd .5); the last column takes it out again, where the "
+            "trials tell more than it does.",
+        .head =
+            forPeople
+                ? Row{"pattern", "trials", "beta", "share of the prior", "from the trials alone"}
+                : Row{"pattern", "trials", "beta", "beta_low", "beta_high", "prior_share",
+                      "beta_trials_alone", "beta_trials_alone_low", "beta_trials_alone_high"},
+        .rows = {}};
+    for (const BetaEstimate& beta : analysis.betas) {
+        Row row = {std::string(records::toText(beta.pattern)), std::to_string(beta.trials)};
+        const auto& alone = beta.fromTrialsAlone;
+        const auto& aloneCi95 = beta.fromTrialsAloneCi95;
+        if (forPeople) {
+            row.push_back(estimateText(beta.beta, beta.ci95));
+            row.push_back(fixedText(100 * beta.priorShare, 0) + " %");
+            row.push_back(alone ? estimateText(*alone, aloneCi95) : kUnknown);
+        } else {
+            row.insert(row.end(), {full(beta.beta), full(beta.ci95.low), full(beta.ci95.high),
+                                   full(beta.priorShare), full(alone),
+                                   aloneCi95 ? full(aloneCi95->low) : kUnknown,
+                                   aloneCi95 ? full(aloneCi95->high) : kUnknown});
+        }
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+TextTable audienceTable(const SlopeAnalysis& analysis, bool forPeople) {
+    TextTable table{
+        .name = "audience",
+        .caption =
+            "The slope that an audience needs: at r = c a at most so many observers detect "
+            "the artifact of the worst group on at least so many of the trials (guesses "
+            "taken out).",
+        .head = forPeople ? Row{"observers", "trials", "c"}
+                          : Row{"observer_share", "trial_share", "c", "c_low", "c_high"},
+        .rows = {}};
+    if (!analysis.audience || !analysis.audience->populationKnown) return table;
+    for (const AudienceCurve::Need& need : analysis.audience->needs) {
+        if (forPeople) {
+            table.rows.push_back({percentText(need.observerShare), percentText(need.trialShare),
+                                  slopeText(need.log10c, need.ci95)});
+            continue;
+        }
+        Row row = {full(need.observerShare), full(need.trialShare)};
+        appendSlope(row, need.log10c, need.ci95);
+        table.rows.push_back(row);
+    }
+    return table;
 }
 
 TextTable screeningTable(const SlopeAnalysis& analysis) {
@@ -346,15 +431,23 @@ TextTable screeningReport(const SlopeAnalysis& analysis) {
 }  // namespace
 
 std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
-    return {groupFile(analysis),     conditionFile(analysis, reference),
-            thresholdFile(analysis), observerFile(analysis),
-            estimatorFile(analysis), screeningTable(analysis)};
+    return {groupFile(analysis),
+            conditionFile(analysis, reference),
+            thresholdFile(analysis),
+            observerFile(analysis),
+            estimatorFile(analysis),
+            betaTable(analysis, false),
+            audienceTable(analysis, false),
+            screeningTable(analysis)};
 }
 
 std::vector<TextTable> reportTables(const SlopeAnalysis& analysis,
                                     const ReferenceSizes& reference) {
-    return {groupReport(analysis), conditionReport(analysis, reference), estimatorReport(analysis),
-            screeningReport(analysis)};
+    std::vector<TextTable> tables = {
+        groupReport(analysis),     conditionReport(analysis, reference), estimatorReport(analysis),
+        betaTable(analysis, true), audienceTable(analysis, true),        screeningReport(analysis)};
+    std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
+    return tables;
 }
 
 std::string tsvText(const TextTable& table) {

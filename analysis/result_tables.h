@@ -20,9 +20,9 @@ struct TextTable {
 };
 
 /// Full digits, `n/a` for what cannot be had: groups, conditions, thresholds (observer x
-/// condition), observers, estimators, screening.
+/// condition), observers, estimators, beta, audience, screening.
 std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference);
-/// For people: groups, conditions, estimators, screening.
+/// For people: groups, conditions, estimators, beta, audience, screening; without the empty ones.
 std::vector<TextTable> reportTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference);
 
 std::string tsvText(const TextTable& table);

@@ -152,4 +152,47 @@ std::optional<Figure> slopesByObserver(const SlopeAnalysis& analysis) {
     return forest("slopes_by_observer", caption, lines, "slope c = r/a in the worst group", named);
 }
 
+std::optional<Figure> audienceShares(const SlopeAnalysis& analysis) {
+    if (!analysis.audience || !analysis.audience->populationKnown) return std::nullopt;
+    const AudienceCurve& curve = *analysis.audience;
+    std::ostringstream rows, plot;
+    for (const AudienceCurve::Point& point : curve.points) {
+        rows << point.slope;
+        for (const double share : point.observerShares) rows << ' ' << 100 * share;
+        rows << '\n';
+    }
+    const double low = curve.points.front().slope, high = curve.points.back().slope;
+    const double headline = c(analysis.slope.headline.value);
+    plot << "set logscale x\nset xrange [" << low << ':' << high
+         << "]\nset yrange [0:100]\nset xlabel 'c: shadows filtered at r = c a'\n"
+         << "set ylabel 'observers who notice (%)'\nset xtics " << logTics(low, high)
+         << "\nset ytics 10\nset grid xtics ytics lc rgb '#dddddd' lw 0.6 dt solid\n"
+         << "set arrow 1 from " << headline << ", graph 0 to " << headline
+         << ", graph 1 nohead dt (2,3) lw 1.2 lc rgb '" << kInk << "'\nset label 1 "
+         << quotedForGnuplot("headline " + fixedText(headline, 2)) << " at " << headline
+         << ", graph 1 center offset 0,0.7 font ',11.5'\n"
+         << "set tmargin 2.5\nset key outside right top Left reverse samplen 1.8 spacing 1.3 "
+            "title 'at least one trial in'\nplot ";
+    for (std::size_t i = 0; i < std::size(kTrialShares); ++i) {
+        plot << (i > 0 ? ", \\\n     " : "") << "$shares using 1:" << i + 2
+             << " with lines lw 2 lc rgb '" << seriesColour(i) << "' title '"
+             << shortText(1 / kTrialShares[i]) << "'";
+    }
+    plot << '\n';
+    return Figure{
+        .name = "audience",
+        .caption =
+            "Who still notices: share of observers who detect the artifact of the worst "
+            "group, " +
+            analysis.slope.worstGroup +
+            ", on at least one trial in 20, 10, 4 or 2 (guesses taken out), against the c "
+            "that shadows are filtered with; by the fitted spread between observers (" +
+            fixedText(curve.tau, 3) + " log10) and psychometric slope (beta " +
+            fixedText(curve.beta, 2) + ").",
+        .widthPx = 760,
+        .heightPx = 380,
+        .data = dataBlock("shares", rows.str()),
+        .plot = plot.str()};
+}
+
 }  // namespace analysis

@@ -34,6 +34,7 @@ std::vector<Section> sectionsOf(const SlopeAnalysis& analysis, const ReferenceSi
     add(slopesByGroup(analysis));
     add(slopeAgainstLight(analysis));
     add(slopesByObserver(analysis));
+    add(audienceShares(analysis));
     sections.push_back({"The answers beside the fit", {}});
     add(psychometricFunctions(analysis));
     add(staircaseTraces(analysis));
