@@ -32,17 +32,27 @@ std::string where(const TrialTable& table, const Trial& trial) {
 }
 
 // Groups in the order of reports: stair, step, lines by angle, frames; then falling lit level.
-using GroupKey = std::tuple<Pattern, double, double>;  // pattern, angle of a line, - lit level
+// Frames: one group per condition, which is a scene at one radius; its artifact size varies from
+// trial to trial and is found when all are there (meanArtifact).
+struct GroupKey {
+    Pattern pattern;
+    double angle, negativeLit;  // of a line, else -1
+    std::string frames;
+    auto operator<=>(const GroupKey&) const = default;
+};
 using ConditionKey = std::pair<GroupKey, double>;
 
 ConditionKey keyOf(const Trial& trial) {
+    if (trial.pattern == Pattern::frame)
+        return {{trial.pattern, -1.0, -trial.litLevel, trial.condition}, 0.0};
     const double angle = trial.pattern == Pattern::line ? trial.angleDeg.value_or(-1.0) : -1.0;
-    return {{trial.pattern, angle, -trial.litLevel}, trial.artifactPx};
+    return {{trial.pattern, angle, -trial.litLevel, ""}, trial.artifactPx};
 }
 
 std::string groupName(const GroupKey& key) {
-    const auto& [pattern, angle, negativeLit] = key;
+    const auto& [pattern, angle, negativeLit, frames] = key;
     std::string name(records::toText(pattern));
+    if (!frames.empty()) name.append(" ").append(frames);
     if (angle >= 0) name.append(" ").append(numberText(angle)).append(" deg");
     return name.append(", lit ").append(numberText(-negativeLit));
 }
@@ -87,9 +97,41 @@ struct Gathered {
         int references = 0, falseAlarms = 0, catchTrials = 0, catchFailures = 0;
     };
     std::map<std::string, Person> people;
-    std::map<ConditionKey, std::set<double>> angles;  // as its trials give them
+    std::map<ConditionKey, std::set<double>> angles;         // as its trials give them
+    std::map<ConditionKey, std::vector<double>> frameSizes;  // artifact of every trial, px
     Shared task{"task", {}, {}}, kernel{"kernel", {}, {}}, encoding{"encoding", {}, {}};
 };
+
+// Of frames the law's r / a is kept, and lengths follow once the condition's size is known.
+double unitOf(const Trial& trial) {
+    return trial.pattern == Pattern::frame ? trial.artifactPx : 1;
+}
+
+std::optional<double> proposedIn(double unit, const Trial& trial) {
+    if (!trial.proposedRadiusPx) return std::nullopt;
+    return *trial.proposedRadiusPx / unit;
+}
+
+// Conditions of frames get the geometric mean of the sizes that were shown, and the radii that make
+// the same r / a there.
+std::map<ConditionKey, double> settleFrameSizes(Gathered& gathered) {
+    std::map<ConditionKey, double> sizes;
+    for (const auto& [key, all] : gathered.frameSizes) {
+        double sum = 0;
+        for (const double a : all) sum += std::log(a);
+        sizes[key] = std::exp(sum / static_cast<double>(all.size()));
+    }
+    for (auto& [id, person] : gathered.people) {
+        for (auto& [key, trials] : person.cells) {
+            if (!sizes.contains(key)) continue;
+            for (StudyTrial& trial : trials) {
+                trial.radiusPx *= sizes[key];
+                if (trial.proposedPx) *trial.proposedPx *= sizes[key];
+            }
+        }
+    }
+    return sizes;
+}
 
 void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& notices) {
     LeftOut leftOut;
@@ -132,8 +174,9 @@ void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& n
             person.catchFailures += yes ? 0 : 1;
         }
         const ConditionKey key = keyOf(trial);
-        person.cells[key].push_back({.radiusPx = trial.filterRadiusPx,
-                                     .proposedPx = trial.proposedRadiusPx,
+        if (trial.pattern == Pattern::frame) into.frameSizes[key].push_back(trial.artifactPx);
+        person.cells[key].push_back({.radiusPx = trial.filterRadiusPx / unitOf(trial),
+                                     .proposedPx = proposedIn(unitOf(trial), trial),
                                      .yes = yes,
                                      .catchTrial = catchTrial});
         if (trial.staircase && trial.thresholdMean) {
@@ -168,6 +211,7 @@ std::optional<double> meanSlope(const std::map<std::string, double>& thresholds)
 
 Study indexed(Gathered&& gathered) {
     Study study;
+    const std::map<ConditionKey, double> frameSizes = settleFrameSizes(gathered);
     std::map<ConditionKey, std::size_t> conditionIndex;
     for (const auto& [id, person] : gathered.people) {
         for (const auto& [key, trials] : person.cells) conditionIndex[key] = 0;
@@ -181,16 +225,19 @@ Study indexed(Gathered&& gathered) {
         const auto [at, isNew] = groupIndex.insert({key.first, study.groups.size()});
         if (isNew) {
             study.groups.push_back({.name = groupName(key.first),
-                                    .pattern = std::get<0>(key.first),
+                                    .pattern = key.first.pattern,
                                     .angleDeg = {},
-                                    .litLevel = -std::get<2>(key.first)});
+                                    .litLevel = -key.first.negativeLit});
             groupAngles.emplace_back();
         }
         const std::set<double>& angles = gathered.angles[key];
         groupAngles.back().insert(angles.begin(), angles.end());
         index = study.conditions.size();
+        const auto size = frameSizes.find(key);
         study.conditions.push_back(
-            {.group = at->second, .artifactPx = key.second, .angleDeg = only(angles)});
+            {.group = at->second,
+             .artifactPx = size == frameSizes.end() ? key.second : size->second,
+             .angleDeg = only(angles)});
     }
     for (std::size_t g = 0; g < study.groups.size(); ++g) {
         study.groups[g].angleDeg = only(groupAngles[g]);

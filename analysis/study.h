@@ -5,8 +5,10 @@
 //     const analysis::Study study = analysis::loadStudy({"data"});
 //     for (const std::string& notice : study.notices) std::cerr << notice << '\n';
 //
-// A group is a pattern (of lines: an angle) at a lit level: the unit that has a slope c of its own.
-// The conditions of a group are its artifact sizes.
+// A group is a pattern (of lines: an angle; of frames: a scene at a radius) at a lit level: the
+// unit that has a slope c of its own. The conditions of a group are its artifact sizes. Frames hold
+// the radius and vary the size: their trials are brought to the geometric mean of the sizes shown,
+// each at its own r / a.
 #pragma once
 
 #include <filesystem>

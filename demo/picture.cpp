@@ -56,11 +56,10 @@ renderer::ByteImage averagedInLight(const renderer::ByteImage& image, int block)
 
 void writePng(const std::filesystem::path& file, const renderer::ByteImage& image) {
     renderer::ByteImage copy = image;
-    cv::Mat bgr;
-    cv::cvtColor(cv::Mat(copy.height, copy.width, CV_8UC3, copy.values.data()), bgr,
-                 cv::COLOR_RGB2BGR);
+    cv::Mat codes(copy.height, copy.width, CV_8UC(copy.channels), copy.values.data());
+    if (copy.channels == 3) cv::cvtColor(codes, codes, cv::COLOR_RGB2BGR);
     std::vector<unsigned char> bytes;
-    if (!cv::imencode(".png", bgr, bytes))
+    if (!cv::imencode(".png", codes, bytes))
         throw std::runtime_error(file.string() + ": picture cannot be encoded");
     records::writeWholeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

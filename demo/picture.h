@@ -12,7 +12,7 @@ namespace demo {
 /// by `block`.
 renderer::ByteImage averagedInLight(const renderer::ByteImage& image, int block);
 
-/// 3-channel PNG, whole or not at all. Throws std::runtime_error naming file and reason.
+/// PNG of 1 or 3 channels, whole or not at all. Throws std::runtime_error naming file and reason.
 void writePng(const std::filesystem::path& file, const renderer::ByteImage& image);
 
 /// Part of an image, each pixel repeated `scale` times along both axes. The part is moved into the

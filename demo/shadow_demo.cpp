@@ -3,9 +3,11 @@
 #include <cstdio>
 
 #include "demo/demo_stats.h"
+#include "demo/frame_writer.h"
 #include "demo/picture.h"
 #include "demo/viewer.h"
 #include "demo/viewer_window.h"
+#include "program/progress.h"
 #include "program/run_program.h"
 #include "records/whole_file.h"
 #include "renderer/window.h"
@@ -25,7 +27,8 @@ struct Options {
     std::optional<int> frames;
     int width = 1280, height = 720;
     int samples = 2;
-    std::optional<std::filesystem::path> screenshot, stats, sequence;
+    std::optional<std::filesystem::path> screenshot, stats, sequence, writeFrames;
+    int edge = 600;
     bool listTechniques = false, listScenes = false;
     std::vector<std::string> command;
 };
@@ -147,6 +150,30 @@ void writeSequence(const Options& options, demo::Viewer& viewer) {
     std::printf("%d pictures in %s\n", frames, options.sequence->string().c_str());
 }
 
+/// Pairs of frames for a design of the study.
+void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
+    const renderer::HeadlessContext context;
+    renderer::Renderer frame(context.info(), renderer::makeScene(state.scene), options.edge,
+                             options.edge);
+    const demo::FramePlan plan{
+        .technique = &renderer::findTechnique(state.technique),
+        .parameters = parametersOf(state),
+        .radiusUv = demo::chooseSoftness(frame, state.radiusM, state.radiusUv).radiusUv,
+        .samples = options.samples};
+    records::RunContext run = records::currentRunContext("shadow_demo", options.command);
+    run.glRenderer = context.info().renderer;
+    run.glVersion = context.info().version;
+    run.softwareRasteriser = context.info().softwareRasteriser;
+    run.viewportWidthPx = run.viewportHeightPx = options.edge;
+    program::Progress progress("frames", static_cast<std::size_t>(demo::frameCount()));
+    demo::writeFrames(*options.writeFrames, frame, context.info(), plan, run,
+                      [&] { progress.advance(); });
+    std::printf(
+        "%s: pairs of frames with their manifest; a design shows them with \"frames\": "
+        "\"FOLDER\"\n",
+        options.writeFrames->string().c_str());
+}
+
 void demonstrate(const Options& options) {
     if (options.listTechniques) return listTechniques();
     if (options.listScenes) return listScenes();
@@ -158,7 +185,11 @@ void demonstrate(const Options& options) {
                                     ", must be 1 to 8");
     if (options.sequence && !options.headless)
         throw std::invalid_argument("--sequence needs --headless");
+    if (options.edge < 16 || options.edge > 4096)
+        throw std::invalid_argument("--edge is " + std::to_string(options.edge) +
+                                    ", must be 16 to 4096");
     const demo::ViewerState state = stateOf(options);
+    if (options.writeFrames) return writeStudyFrames(options, state);
     if (options.slope.file)  // of the published default the stats say as much
         for (const std::string& note : demo::loadSlope(options.slope.file, state.audience).notes)
             std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
@@ -228,6 +259,11 @@ int main(int argc, char** argv) {
     app.add_option("--samples", options.samples, "samples along a pixel's edge in the screenshot")
         ->capture_default_str();
     app.add_option("--stats", options.stats, "JSON file to write at the end");
+    app.add_option("--write-frames", options.writeFrames,
+                   "folder for a study's frames of the scene, without a window: maps of many sizes "
+                   "at one softness, each beside a converged one, and their manifest");
+    app.add_option("--edge", options.edge, "of the frames of --write-frames in px")
+        ->capture_default_str();
     app.add_flag("--list-techniques", options.listTechniques,
                  "prints each technique: name first, then what it is");
     app.add_flag("--list-scenes", options.listScenes,

@@ -13,6 +13,7 @@
 #include "stimulus/silhouette.h"
 #include "stimulus/stimulus_image.h"
 #include "stimulus/tap_kernel.h"
+#include "study_app/frame_design.h"
 
 namespace study_app {
 namespace {
@@ -71,6 +72,7 @@ std::string noConditions(const std::string& field, const List& list) {
 }
 
 double conditionCount(const Design& d) {
+    if (d.frames) return static_cast<double>(frameConditions(d).size());
     return static_cast<double>(d.artifactPx.size() * d.patterns.size() * d.litLevels.size() *
                                d.kernels.size() * d.noiseLevels.size());
 }
@@ -273,23 +275,25 @@ std::string checkCurve(const Design& d) {
     return remaining.empty() ? "" : problem("quest", "refused", remaining);
 }
 
-/// A strength that the limits can show must lie in the staircase's table for every candidate, or
-/// the posterior would be inexact.
+/// A strength that can be shown must lie in the staircase's table for every candidate, or the
+/// posterior would be inexact.
 std::string checkRange(const Design& d) {
     const quest::QuestParameters q = staircaseParameters(d);
     const double half = q.range ? *q.range / 2 : 250 * q.grain;
-    const auto [least, most] = std::minmax_element(d.artifactPx.begin(), d.artifactPx.end());
-    for (const double x : {std::log10(*most / d.radius.min), std::log10(*least / d.radius.max)}) {
-        const double distance = std::abs(x - q.priorMean);
-        if (distance <= half) continue;
-        const double fitting = std::ceil(20 * distance) / 10;
-        const std::string rule = "the limits of radius_px show artifacts " +
-                                 exactText(std::round(distance * 1000) / 1000) +
-                                 " log10 units from the guess, must be at least " +
-                                 exactText(fitting) + " wide to hold them (or narrow radius_px)";
-        return problem("quest.range", 2 * half, rule);
+    double distance = 0;
+    for (const Condition& condition : conditions(d)) {
+        const auto [weakest, strongest] = strengthRange(d, condition);
+        distance = std::max(
+            {distance, std::abs(weakest - q.priorMean), std::abs(strongest - q.priorMean)});
     }
-    return {};
+    if (distance <= half) return {};
+    const double fitting = std::ceil(20 * distance) / 10;
+    const std::string rule = std::string(d.frames ? "the frames" : "the limits of radius_px") +
+                             " show artifacts " + exactText(std::round(distance * 1000) / 1000) +
+                             " log10 units from the guess, must be at least " + exactText(fitting) +
+                             " wide to hold them (or narrow " +
+                             (d.frames ? "the r / a of the frames)" : "radius_px)");
+    return problem("quest.range", 2 * half, rule);
 }
 
 std::string orientationText(Orientation orientation) {
@@ -331,6 +335,11 @@ std::string validate(const Design& d) {
         return problem("name", records::quotedText(d.name),
                        "must be a text of one line, not empty");
     }
+    if (d.frames) {
+        return firstOf([&] { return checkWindow(d); }, [&] { return validateFrames(d); },
+                       [&] { return checkTrials(d); }, [&] { return checkCurve(d); },
+                       [&] { return checkRange(d); }, [&] { return checkPresentation(d); });
+    }
     return firstOf([&] { return checkWindow(d); }, [&] { return checkSizes(d); },
                    [&] { return checkPatterns(d); }, [&] { return checkLitLevels(d); },
                    [&] { return checkKernels(d); }, [&] { return checkNoise(d); },
@@ -347,6 +356,7 @@ quest::QuestParameters staircaseParameters(const Design& design) {
 }
 
 std::vector<Condition> conditions(const Design& design) {
+    if (design.frames) return frameConditions(design);
     std::vector<Condition> result;
     for (const Silhouette& silhouette : design.patterns) {
         for (const int a : design.artifactPx) {
@@ -368,6 +378,17 @@ std::vector<Condition> conditions(const Design& design) {
         }
     }
     return result;
+}
+
+StrengthRange strengthRange(const Design& design, const Condition& condition) {
+    if (!condition.frames.empty()) {
+        const records::FramePair &coarse = condition.frames.front(),
+                                 &fine = condition.frames.back();
+        return {.weakest = quest::strength(fine.artifactPx, fine.radiusPx),
+                .strongest = quest::strength(coarse.artifactPx, coarse.radiusPx)};
+    }
+    return {.weakest = quest::strength(condition.artifactPx, design.radius.max),
+            .strongest = quest::strength(condition.artifactPx, design.radius.min)};
 }
 
 int catchTrials(const Design& d) {

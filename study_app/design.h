@@ -12,11 +12,13 @@
 // file.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "quest/quest.h"
+#include "records/frame_manifest.h"
 #include "records/trial_table.h"
 #include "study_app/presentation.h"
 
@@ -58,6 +60,13 @@ struct Roving {
 /// observers have 1 to 6 %. Presets keep their criterion there.
 inline constexpr double kYesNoGamma = 0.05;
 
+/// Rendered frames in the place of edges (frame_design.h).
+struct FrameSet {
+    std::filesystem::path folder;           ///< in which the pictures lie
+    std::vector<records::FramePair> pairs;  ///< of its manifest
+    bool operator==(const FrameSet&) const = default;
+};
+
 struct Design {
     std::string name;
     std::string description;
@@ -79,6 +88,9 @@ struct Design {
     RadiusLimits radius;
     Roving roving;
     Presentation presentation;
+    /// Then the rest that describes an edge is empty or at its default, and windowPx is the edge of
+    /// the frames.
+    std::optional<FrameSet> frames = {};
 
     bool operator==(const Design&) const = default;
 };
@@ -92,17 +104,25 @@ quest::QuestParameters staircaseParameters(const Design& design);
 struct Condition {
     std::string name;  ///< unique in the design: "step-a10-lit0.5", "line22.5-a8-lit1"
     Silhouette silhouette;
-    double angleDeg =
-        45;  ///< of the true silhouette: stair 45, step atan(a / window), line its own
-    int artifactPx = 0;
+    double angleDeg = 45;  ///< of the true silhouette: stair 45, step atan(a / window), line its
+                           ///< own; of frames without meaning
+    int artifactPx = 0;    ///< 0: of frames, where it varies
     double litLevel = 1;
     std::string kernel;
     double noiseLevels = 0;
+    std::vector<records::FramePair> frames = {};  ///< by rising r / a; of edges empty
 };
 
 /// Patterns outermost, then sizes, lit levels, kernels, noise. Kernel and noise are part of the
 /// name where the design has several.
 std::vector<Condition> conditions(const Design& design);
+
+/// The strongest and the weakest x = log10(a / r) that the display, or the list of frames, can show
+/// in a condition.
+struct StrengthRange {
+    double weakest = 0, strongest = 0;
+};
+StrengthRange strengthRange(const Design& design, const Condition& condition);
 
 int catchTrials(
     const Design& design);  ///< so that their share of all trials is catchShare, rounded

@@ -13,6 +13,7 @@
 #include "records/json_document.h"
 #include "records/json_fields.h"
 #include "records/quoted_text.h"
+#include "study_app/frame_images.h"
 
 namespace study_app {
 namespace {
@@ -130,8 +131,7 @@ RadiusLimits readRadius(const JsonFields& design, int windowPx) {
     return limits;
 }
 
-Roving readRoving(const JsonFields& design) {
-    Roving roving;
+Roving readRoving(const JsonFields& design, Roving roving) {
     if (!design.has("roving")) return roving;
     if (design.any("roving").is_boolean()) {
         const bool on = design.boolean("roving");
@@ -146,6 +146,66 @@ Roving readRoving(const JsonFields& design) {
     return roving;
 }
 
+/// A folder, beside the design's file; in a session's sidecar the folder with its list.
+FrameSet readFrames(const JsonFields& design, const std::string& file, const fs::path& beside) {
+    const json& frames = design.any("frames");
+    if (frames.is_object()) {
+        const JsonFields fields = design.object("frames");
+        FrameSet set{.folder = fields.text("folder"),
+                     .pairs = records::framePairsFromJson(frames, file, "frames", "pairs")};
+        fields.any("pairs");
+        fields.noOtherFields();
+        return set;
+    }
+    const fs::path folder = fs::absolute(beside / design.text("frames")).lexically_normal();
+    return {.folder = folder, .pairs = records::readFrameManifest(folder).pairs};
+}
+
+/// Every picture is looked at, so that no session stops in its middle.
+int edgeOf(const FrameSet& frames) {
+    const fs::path first = frames.folder / frames.pairs.front().artifact;
+    const int edge = frameEdgePx(first);
+    for (const records::FramePair& pair : frames.pairs) {
+        for (const std::string& name : {pair.artifact, pair.converged}) {
+            const fs::path file = frames.folder / name;
+            if (const int other = frameEdgePx(file); other != edge) {
+                throw std::runtime_error(file.string() + ": " + std::to_string(other) +
+                                         " px: must be as wide as " + first.string() + ", " +
+                                         std::to_string(edge) + " px");
+            }
+        }
+    }
+    return edge;
+}
+
+void readFrameDesign(const JsonFields& fields, const std::string& where, const fs::path& beside,
+                     Design& d) {
+    for (const char* field : {"artifact_px", "patterns", "lit_levels", "kernels", "noise_levels",
+                              "dither", "localise", "radius_px"}) {
+        if (fields.has(field)) fields.fail(field, "must not stand beside frames");
+    }
+    d.frames = readFrames(fields, where, beside);
+    const auto window = fields.optionalInteger("window_px");
+    d.windowPx = fields.any("frames").is_object() && window ? *window : edgeOf(*d.frames);
+    if (window && *window != d.windowPx) {
+        fields.fail("window_px", "must be the edge of the frames, " + std::to_string(d.windowPx));
+    }
+    d.roving = readRoving(fields, {.shift = false, .quarterTurn = false, .tilt = false});
+}
+
+void readEdgeDesign(const JsonFields& fields, const std::string& where, Design& d) {
+    d.windowPx = fields.optionalInteger("window_px").value_or(d.windowPx);
+    d.artifactPx = readSizes(fields);
+    d.patterns = readPatterns(fields, where);
+    if (fields.has("lit_levels")) d.litLevels = fields.numbers("lit_levels");
+    if (fields.has("kernels")) d.kernels = fields.texts("kernels");
+    if (fields.has("noise_levels")) d.noiseLevels = fields.numbers("noise_levels");
+    d.dither = fields.optionalBoolean("dither").value_or(d.dither);
+    d.localise = fields.optionalBoolean("localise").value_or(d.localise);
+    d.radius = readRadius(fields, d.windowPx);
+    d.roving = readRoving(fields, {});
+}
+
 ordered_json patternJson(const Silhouette& s) {
     ordered_json j{{"pattern", records::toText(s.pattern)}};
     if (s.angleDeg) j["angle_deg"] = *s.angleDeg;
@@ -153,6 +213,19 @@ ordered_json patternJson(const Silhouette& s) {
         j["orientation"] = wordFor(kOrientations, s.orientation);
     }
     return j;
+}
+
+ordered_json edgeJson(const Design& d) {
+    ordered_json patterns = ordered_json::array();
+    for (const Silhouette& s : d.patterns) patterns.push_back(patternJson(s));
+    return {{"artifact_px", d.artifactPx},
+            {"patterns", patterns},
+            {"lit_levels", d.litLevels},
+            {"kernels", d.kernels},
+            {"noise_levels", d.noiseLevels},
+            {"dither", d.dither},
+            {"localise", d.localise},
+            {"radius_px", {{"min", d.radius.min}, {"max", d.radius.max}, {"step", d.radius.step}}}};
 }
 
 ordered_json staircaseJson(const Design& d) {
@@ -176,7 +249,7 @@ fs::path executableFolder() {
 
 }  // namespace
 
-Design designFromJson(const json& value, const std::string& where) {
+Design designFromJson(const json& value, const std::string& where, const fs::path& beside) {
     const JsonFields fields(value, where);
     records::checkSchema(fields, kSchemaName, kDesignMajor);
     Design d;
@@ -184,19 +257,14 @@ Design designFromJson(const json& value, const std::string& where) {
     d.description = fields.optionalText("description").value_or("");
     d.task = fields.optionalWord("task", records::kTaskWords).value_or(d.task);
     d.encoding = fields.optionalWord("encoding", records::kEncodingWords).value_or(d.encoding);
-    d.windowPx = fields.optionalInteger("window_px").value_or(d.windowPx);
-    d.artifactPx = readSizes(fields);
-    d.patterns = readPatterns(fields, where);
-    if (fields.has("lit_levels")) d.litLevels = fields.numbers("lit_levels");
-    if (fields.has("kernels")) d.kernels = fields.texts("kernels");
-    if (fields.has("noise_levels")) d.noiseLevels = fields.numbers("noise_levels");
-    d.dither = fields.optionalBoolean("dither").value_or(d.dither);
-    d.localise = fields.optionalBoolean("localise").value_or(d.localise);
+    if (fields.has("frames")) {
+        readFrameDesign(fields, where, beside, d);
+    } else {
+        readEdgeDesign(fields, where, d);
+    }
     d.trialsPerCondition = fields.integer("trials_per_condition");
     d.catchShare = fields.optionalNumber("catch_share").value_or(d.catchShare);
     readStaircase(fields, d);
-    d.radius = readRadius(fields, d.windowPx);
-    d.roving = readRoving(fields);
     if (fields.has("presentation")) {
         d.presentation = presentationFromJson(fields.any("presentation"), where, "presentation");
     }
@@ -208,42 +276,39 @@ Design designFromJson(const json& value, const std::string& where) {
 }
 
 Design readDesign(const fs::path& file) {
-    return designFromJson(records::readJson(file), file.string());
+    return designFromJson(records::readJson(file), file.string(), file.parent_path());
 }
 
 ordered_json normalisedJson(const Design& d) {
-    ordered_json patterns = ordered_json::array();
-    for (const Silhouette& s : d.patterns) patterns.push_back(patternJson(s));
     ordered_json text{{"schema", records::schemaJson(kSchemaName, kDesignMajor, 0)},
                       {"name", d.name}};
     if (!d.description.empty()) text["description"] = d.description;
-    text.update(ordered_json{
-        {"task", records::toText(d.task)},
-        {"encoding", records::toText(d.encoding)},
-        {"window_px", d.windowPx},
-        {"artifact_px", d.artifactPx},
-        {"patterns", patterns},
-        {"lit_levels", d.litLevels},
-        {"kernels", d.kernels},
-        {"noise_levels", d.noiseLevels},
-        {"dither", d.dither},
-        {"localise", d.localise},
-        {"trials_per_condition", d.trialsPerCondition},
-        {"catch_share", d.catchShare},
-        {"quest", staircaseJson(d)},
-        {"radius_px", {{"min", d.radius.min}, {"max", d.radius.max}, {"step", d.radius.step}}},
-        {"roving",
-         {{"shift", d.roving.shift},
-          {"quarter_turn", d.roving.quarterTurn},
-          {"mirror", d.roving.mirror},
-          {"tilt", d.roving.tilt}}},
-        {"presentation", presentationJson(d.presentation)}});
+    text.update(ordered_json{{"task", records::toText(d.task)},
+                             {"encoding", records::toText(d.encoding)},
+                             {"window_px", d.windowPx}});
+    if (d.frames) {
+        text["frames"] = {{"folder", d.frames->folder.string()},
+                          {"pairs", records::toJson(d.frames->pairs)}};
+    } else {
+        text.update(edgeJson(d));
+    }
+    text.update(ordered_json{{"trials_per_condition", d.trialsPerCondition},
+                             {"catch_share", d.catchShare},
+                             {"quest", staircaseJson(d)},
+                             {"roving",
+                              {{"shift", d.roving.shift},
+                               {"quarter_turn", d.roving.quarterTurn},
+                               {"mirror", d.roving.mirror},
+                               {"tilt", d.roving.tilt}}},
+                             {"presentation", presentationJson(d.presentation)}});
     return text;
 }
 
 std::string designDifference(const json& there, const json& here) {
     const auto comparable = [](json design) {
         if (design.is_object()) design.erase("description");
+        // Frames may be moved; their list stays.
+        if (design.contains("frames")) design["frames"].erase("folder");
         return design.flatten();
     };
     const json a = comparable(there), b = comparable(here);

@@ -18,15 +18,18 @@ inline constexpr int kDesignMajor = 1;
 /// type, a missing or contradictory value, an unknown major schema.
 Design readDesign(const std::filesystem::path& file);
 
-/// The same from JSON that is already there (a session's sidecar); `where` stands for the file.
-Design designFromJson(const nlohmann::json& json, const std::string& where);
+/// The same from JSON that is already there (a session's sidecar); `where` stands for the file, and
+/// a folder of frames is looked for in `beside`.
+Design designFromJson(const nlohmann::json& json, const std::string& where,
+                      const std::filesystem::path& beside = {});
 
 /// The design with every default filled in: two files mean the same design where these are equal.
 /// Reading it gives the same design again.
 nlohmann::ordered_json normalisedJson(const Design& design);
 
 /// Where two normalised designs differ: "trials_per_condition is 40 there and 20 here"; empty where
-/// a session of one may go on with the other. The description is free to change.
+/// a session of one may go on with the other. The description is free to change, and so is the
+/// place of frames.
 std::string designDifference(const nlohmann::json& there, const nlohmann::json& here);
 
 /// The folders in which shipped designs are looked for: `designs` in $STAIRWELL_DATA where that is

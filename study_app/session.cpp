@@ -11,6 +11,7 @@
 #include "records/number_rule.h"
 #include "records/quoted_text.h"
 #include "stimulus/tap_kernel.h"
+#include "study_app/frame_design.h"
 #include "study_app/random_stream.h"
 #include "study_app/trial_stimulus.h"
 
@@ -63,6 +64,12 @@ bool hasRandomPixels(const Condition& condition, const Design& design) {
 /// 31 bits, which every reader of tables takes for a whole number.
 int imageSeed(std::uint64_t seed, std::size_t row) {
     return static_cast<int>(engineAt(seed, Purpose::image, row)() >> 33);
+}
+
+void show(Trial& trial, const records::FramePair& frame) {
+    trial.artifactPx = frame.artifactPx;
+    trial.filterRadiusPx = frame.radiusPx;
+    trial.frame = frame.artifact;
 }
 
 std::vector<std::string_view> cells(std::string_view line) {
@@ -130,7 +137,7 @@ void Session::prepareNext() {
     next_.number = static_cast<int>(rows_ + 1);
     next_.condition = condition.name;
     next_.pattern = condition.silhouette.pattern;
-    next_.angleDeg = condition.angleDeg;
+    if (condition.frames.empty()) next_.angleDeg = condition.angleDeg;
     next_.artifactPx = condition.artifactPx;
     next_.litLevel = condition.litLevel;
     next_.kernel = condition.kernel;
@@ -144,13 +151,17 @@ void Session::prepareNext() {
 }
 
 void Session::place(Trial& trial, std::size_t condition, bool isCatch) const {
+    const std::vector<records::FramePair>& frames = conditions_[condition].frames;
     if (isCatch && design_.task == Task::twoAfc) {
         trial.filterRadiusPx = design_.radius.min;
+        if (!frames.empty()) show(trial, frames.front());
         return;
     }
-    const double proposed = quest::radiusAt(trial.artifactPx, staircases_[condition].quantile());
+    const double x = staircases_[condition].quantile();
+    if (!frames.empty()) show(trial, nearestFrame(conditions_[condition], quest::radiusAt(1, x)));
+    const double proposed = quest::radiusAt(trial.artifactPx, x);
     trial.proposedRadiusPx = proposed;
-    trial.filterRadiusPx = shownRadius(proposed, design_.radius);
+    if (frames.empty()) trial.filterRadiusPx = shownRadius(proposed, design_.radius);
     if (isCatch) {
         trial.type = TrialType::reference;
     } else {
@@ -254,12 +265,14 @@ std::vector<Threshold> thresholds(const Session& session) {
         const Condition& condition = session.conditions()[k];
         const quest::Quest& staircase = session.staircase(k);
         const double mean = staircase.mean();
+        const double radius = condition.frames.empty() ? quest::radiusAt(condition.artifactPx, mean)
+                                                       : condition.frames.front().radiusPx;
         result.push_back({.condition = condition.name,
                           .trials = staircase.history().size(),
                           .mean = mean,
                           .sd = staircase.sd(),
                           .c = quest::radiusAt(1.0, mean),
-                          .radiusPx = quest::radiusAt(condition.artifactPx, mean)});
+                          .radiusPx = radius});
     }
     return result;
 }

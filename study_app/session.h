@@ -24,6 +24,10 @@
 //            nobody overlooks who looks: a wrong side is a lapse. `proposed_radius_px` is n/a. It
 //            is an ordinary trial for a fit, where it informs the lapse rate.
 //
+// Frames: the pair nearest to the proposed r / a is shown. `artifact_px` and `filter_radius_px` are
+// its own, `proposed_radius_px` is the proposed ratio times its a. Catch trials show the coarsest
+// map in 2AFC, the converged frame in yes/no.
+//
 // Rows whose status is not `ok` (undone, repeated, too_fast) count as rows but answer nothing: the
 // same condition comes again, with fresh roving.
 #pragma once
@@ -116,7 +120,7 @@ struct Threshold {
     std::size_t trials = 0;
     double mean = 0, sd = 0;  ///< posterior of x0 = log10(a / r), log10 units
     double c = 0;             ///< 10^-mean, radius in artifact sizes
-    double radiusPx = 0;      ///< c a
+    double radiusPx = 0;      ///< c a; of frames the one that they all have
 };
 std::vector<Threshold> thresholds(const Session& session);
 

@@ -18,16 +18,11 @@ double wilsonLowerBound(int successes, int n) {
     return (p + zz / 2 - z * std::sqrt(p * (1 - p) / n + zz / (4 * n))) / (1 + zz);
 }
 
-double shareAtLimit(const quest::Quest& staircase, const Condition& condition,
-                    const RadiusLimits& limits) {
+double shareAtLimit(const quest::Quest& staircase, const StrengthRange& shown) {
     const auto history = staircase.history();
     if (history.empty()) return 0;
-    const auto strengthAt = [&](double radius) {
-        return quest::strength(condition.artifactPx, radius);
-    };
-    const double strongest = strengthAt(limits.min), weakest = strengthAt(limits.max);
     const auto atLimit = std::ranges::count_if(history, [&](const quest::QuestTrial& trial) {
-        return trial.x == strongest || trial.x == weakest;
+        return trial.x == shown.strongest || trial.x == shown.weakest;
     });
     return static_cast<double>(atLimit) / static_cast<double>(history.size());
 }
@@ -42,7 +37,8 @@ std::vector<ConditionResult> conditionResults(const Session& session) {
         ConditionResult r{.threshold = measured[k],
                           .cLow = quest::radiusAt(1.0, staircase.quantile(0.975)),
                           .cHigh = quest::radiusAt(1.0, staircase.quantile(0.025))};
-        r.limitShare = shareAtLimit(staircase, session.conditions()[k], session.design().radius);
+        r.limitShare =
+            shareAtLimit(staircase, strengthRange(session.design(), session.conditions()[k]));
         r.atLimit = r.limitShare > kLimitShare;
         r.notConverged = r.threshold.sd > kConvergedSd;
         results.push_back(r);
@@ -79,6 +75,10 @@ Design rerunDesign(const Design& design, std::size_t condition) {
     const Condition c = conditions(design).at(condition);
     Design rerun = design;
     rerun.name = design.name + "-rerun";
+    if (design.frames) {
+        rerun.frames->pairs = c.frames;
+        return rerun;
+    }
     rerun.artifactPx = {c.artifactPx};
     rerun.patterns = {c.silhouette};
     rerun.litLevels = {c.litLevel};

@@ -20,7 +20,20 @@ std::string formatted(const char* format, Values... values) {
     return text;
 }
 
-/// First column to the left, numbers to the right.
+struct MeanAndSd {
+    double mean = 0, sd = 0;
+};
+
+MeanAndSd meanAndSd(const std::vector<double>& values) {
+    const auto n = static_cast<double>(values.size());
+    double sum = 0, squares = 0;
+    for (const double v : values) sum += v;
+    for (const double v : values) squares += (v - sum / n) * (v - sum / n);
+    return {sum / n, n > 1 ? std::sqrt(squares / (n - 1)) : 0};
+}
+
+}  // namespace
+
 std::string aligned(const std::vector<Row>& rows) {
     std::vector<std::size_t> width(rows.front().size());
     for (const Row& row : rows) {
@@ -36,20 +49,6 @@ std::string aligned(const std::vector<Row>& rows) {
     }
     return text;
 }
-
-struct MeanAndSd {
-    double mean = 0, sd = 0;
-};
-
-MeanAndSd meanAndSd(const std::vector<double>& values) {
-    const auto n = static_cast<double>(values.size());
-    double sum = 0, squares = 0;
-    for (const double v : values) sum += v;
-    for (const double v : values) squares += (v - sum / n) * (v - sum / n);
-    return {sum / n, n > 1 ? std::sqrt(squares / (n - 1)) : 0};
-}
-
-}  // namespace
 
 std::string thresholdTable(const Session& session, const SimulatedParticipant* participant) {
     std::vector<Row> rows{{"condition", "trials", "x0", "sd", "c", "radius px"}};

@@ -10,6 +10,9 @@
 
 namespace study_app {
 
+/// Columns of equal width, the first to the left, the others (numbers) to the right; a line each.
+std::string aligned(const std::vector<std::vector<std::string>>& rows);
+
 /// One row per condition: trials, threshold x0 with its posterior sd, c, threshold radius; with a
 /// simulated observer also the c that it really has. `participant` may be null.
 std::string thresholdTable(const Session& session, const SimulatedParticipant* participant);

@@ -177,11 +177,12 @@ SimulatedParticipant drawParticipant(const SimulatedPopulation& population, cons
         .response = {.gamma = twoAfc ? 0.5 : population.falseAlarms, .lapse = population.lapse},
         .seed = sessionSeed};
     std::mt19937_64 rng = engineAt(sessionSeed, Purpose::observer, 0);
-    const double log10a0 = log10GeometricMean(design.artifactPx);
+    // Frames are met at one size: only r / a is the same at every place of a perspective view.
+    const double log10a0 = design.frames ? 0 : log10GeometricMean(design.artifactPx);
     const double u = population.observerSd * quest::standardNormal(rng);
     for (const Condition& condition : conditions(design)) {
         const double v = population.conditionSd * quest::standardNormal(rng);
-        const double log10a = std::log10(condition.artifactPx);
+        const double log10a = design.frames ? 0 : std::log10(condition.artifactPx);
         const double log10c =
             std::log10(population.c * patternFactor(population, condition.silhouette.pattern)) +
             population.contrastExponent * std::log10(std::max(condition.litLevel, kLeastContrast));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // study_app: runs the study's sessions.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
@@ -14,7 +15,9 @@
 #include "program/progress.h"
 #include "program/run_program.h"
 #include "records/run_context.h"
+#include "study_app/design_check.h"
 #include "study_app/design_file.h"
+#include "study_app/display_file.h"
 #include "study_app/recorded_session.h"
 #include "study_app/session_report.h"
 #include "study_app/simulated_population.h"
@@ -23,8 +26,11 @@
 
 namespace {
 
+constexpr int kCheckedObservers = 10;
+
 struct Options {
-    std::string design, data, participant, session, observer, replay;
+    std::string design, data, participant, session, observer, replay, check;
+    std::optional<double> pxPerDeg;
     std::string seed;  // as text: CLI11 reads "-1" as 2^64 - 1
     int observers = 0;
     bool headless = false, listDesigns = false;
@@ -97,17 +103,51 @@ void simulate(const Options& options, const study_app::SessionRequest& request) 
     std::printf("%zu rows, each synced to the disk, in %.3f s\n", newRows, elapsed.count());
 }
 
+/// What a stored display shows of the design.
+std::string onDisplay(const study_app::DisplayProfile& display, const study_app::Design& design) {
+    std::string text = "\n" + display.name + ", " + std::to_string(display.widthPx) + " x " +
+                       std::to_string(display.heightPx) + " px: ";
+    const int panels = design.task == records::Task::twoAfc ? 2 : 1;
+    if (display.widthPx < panels * design.windowPx || display.heightPx < design.windowPx) {
+        text += "warning: too small for " + std::to_string(panels) + " x " +
+                std::to_string(design.windowPx) + " px. ";
+    }
+    const std::optional<double> pxPerDeg = study_app::pxPerDeg(display);
+    return text + (pxPerDeg ? study_app::visibleRangeText(design, *pxPerDeg)
+                            : std::string("no viewing distance is known\n"));
+}
+
+void check(const CLI::App& app, const Options& options, std::uint64_t seed) {
+    const study_app::Design design = study_app::readDesign(study_app::findDesign(options.check));
+    const std::string observer = app.count("--observer") > 0 ? options.observer : "simulated";
+    const int observers = app.count("--observers") > 0 ? options.observers : kCheckedObservers;
+    program::Progress progress("sessions", study_app::kCheckSessions);
+    const study_app::DesignCheck checked = study_app::checkDesign(
+        design, study_app::populationFromText(observer), seed, [&] { progress.advance(); });
+    std::printf("%s", study_app::checkText(checked, design, observers).c_str());
+    if (options.pxPerDeg) {
+        std::printf("\n%s", study_app::visibleRangeText(design, *options.pxPerDeg).c_str());
+    }
+    if (options.window.displays.empty()) return;
+    for (const study_app::DisplayProfile& display :
+         study_app::readDisplays(options.window.displays)) {
+        std::printf("%s", onDisplay(display, design).c_str());
+    }
+}
+
 // What CLI11 cannot say without crowding --help: which options belong together.
 void require(const CLI::App& app, const char* option) {
     if (app.count(option) == 0) throw CLI::RequiredError(option);
 }
 
 /// An option that a mode does not use is refused, not ignored.
-void requireAlone(const CLI::App& app, const char* mode) {
+void requireAlone(const CLI::App& app, const char* mode,
+                  const std::vector<std::string_view>& with = {}) {
     for (const char* option :
          {"--design", "--data", "--participant", "--session", "--headless", "--observer",
-          "--observers", "--seed", "--replay", "--list-designs"}) {
-        if (std::string_view(option) != mode && app.count(option) > 0) {
+          "--observers", "--seed", "--replay", "--list-designs", "--check", "--px-per-deg"}) {
+        const bool taken = std::ranges::find(with, option) != with.end();
+        if (std::string_view(option) != mode && !taken && app.count(option) > 0) {
             throw CLI::ExcludesError(mode, option);
         }
     }
@@ -145,6 +185,11 @@ void run(const CLI::App& app, const Options& options, std::vector<std::string> c
         requireAlone(app, "--replay");
         return replay(options.replay);
     }
+    if (app.count("--check") > 0) {
+        requireAlone(app, "--check", {"--observer", "--observers", "--seed", "--px-per-deg"});
+        return check(app, options, app.count("--seed") > 0 ? readSeed(options.seed) : 1);
+    }
+    if (app.count("--px-per-deg") > 0) throw CLI::RequiresError("--px-per-deg", "--check");
     if (!options.headless) return showWindow(app, options, std::move(command));
     for (const char* option : {"--design", "--data", "--observer", "--seed"}) require(app, option);
     if (app.count("--observers") > 0 && app.count("--participant") > 0) {
@@ -189,6 +234,12 @@ int main(int argc, char** argv) {
     app.add_option(
         "--replay", o.replay,
         "Derive a recorded session again from its table and sidecar, compare, print thresholds");
+    app.add_option("--check", o.check,
+                   "Design to validate and simulate: minutes, precision for --observers (default "
+                   "10), proposals beyond the display's limits");
+    app.add_option("--px-per-deg", o.pxPerDeg,
+                   "With --check: resolution of a display (or --displays FILE: of all stored ones)")
+        ->check(CLI::Range(1.0, 1000.0));
     app.add_flag("--list-designs", o.listDesigns, "Print the shipped designs");
     study_app::addWindowOptions(app, o.window);
     std::vector<std::string> command(argv, argv + argc);

@@ -35,7 +35,7 @@ std::vector<std::size_t> inShuffledBlocks(const std::vector<std::size_t>& candid
 
 std::vector<std::size_t> catchConditions(const Design& design) {
     const std::vector<Condition> all = conditions(design);
-    const int largest = *std::ranges::max_element(design.artifactPx);
+    const int largest = std::ranges::max(all, {}, &Condition::artifactPx).artifactPx;
     std::vector<std::size_t> result;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const bool obvious = all[k].artifactPx == largest;

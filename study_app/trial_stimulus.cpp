@@ -8,6 +8,7 @@
 
 #include "records/quoted_text.h"
 #include "stimulus/stimulus_image.h"
+#include "study_app/frame_images.h"
 
 namespace study_app {
 namespace {
@@ -77,9 +78,38 @@ stimulus::StimulusOptions stimulusOf(const Trial& trial, int windowPx) {
     return o;
 }
 
+/// Both on the sides that the row names; in yes/no the one that it shows.
+template <typename Artifact, typename Straight>
+TrialImages inPlace(const Trial& trial, Artifact artifact, Straight straight) {
+    if (trial.task == records::Task::yesNo) {
+        return {trial.type == records::TrialType::artifact ? artifact() : straight(), {}};
+    }
+    if (trial.side == "left") return {artifact(), straight()};
+    return {straight(), artifact()};
+}
+
 bool sameCodes(const cv::Mat& a, const cv::Mat& b) {
     if (a.size() != b.size()) return false;
     return a.empty() || cv::countNonZero(a != b) == 0;
+}
+
+/// The frame of the row and its converged partner.
+TrialImages frameImages(const Trial& trial, const Design& design) {
+    if (!design.frames || !trial.frame) {
+        fail(trial, "pattern: frame: the design has no frames, or the row names none");
+    }
+    const auto& [folder, pairs] = *design.frames;
+    const auto pair = std::ranges::find(pairs, *trial.frame, &records::FramePair::artifact);
+    if (pair == pairs.end()) {
+        fail(trial, "frame: " + records::quotedText(*trial.frame) + ": is not in the design");
+    }
+    const auto read = [&](const std::string& name) {
+        cv::Mat codes = readFrame(folder / name, design.windowPx);
+        if (trial.mirror.value_or(false)) cv::flip(codes, codes, 1);
+        return codes;
+    };
+    return inPlace(
+        trial, [&] { return read(pair->artifact); }, [&] { return read(pair->converged); });
 }
 
 }  // namespace
@@ -89,14 +119,11 @@ bool TrialImages::operator==(const TrialImages& other) const {
 }
 
 TrialImages trialImages(const Trial& trial, const Design& design) {
+    if (trial.pattern == records::Pattern::frame) return frameImages(trial, design);
     const stimulus::StimulusOptions o = stimulusOf(trial, design.windowPx);
-    if (trial.task == records::Task::yesNo) {
-        const bool artifact = trial.type == records::TrialType::artifact;
-        return {artifact ? stimulus::artifactImage(o) : stimulus::straightImage(o), {}};
-    }
-    cv::Mat artifact = stimulus::artifactImage(o), straight = stimulus::straightImage(o);
-    if (trial.side == "left") return {std::move(artifact), std::move(straight)};
-    return {std::move(straight), std::move(artifact)};
+    return inPlace(
+        trial, [&] { return stimulus::artifactImage(o); },
+        [&] { return stimulus::straightImage(o); });
 }
 
 std::optional<double> clickDistancePx(const Trial& trial, int windowPx, double clickXPx,

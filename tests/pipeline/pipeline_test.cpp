@@ -107,4 +107,33 @@ TEST(Pipeline, FitsRealTablesAsTheyAre) {
     }
 }
 
+// Rendered frames, staircases on them, a fit of the tables. All observers are alike here, so that
+// the interval is narrow; the seed is fixed as above.
+TEST(Pipeline, RecoversTheSlopeThatObserversOfRenderedFramesHave) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path frames = folder.path() / "frames";
+    succeed("shadow_demo", {"--write-frames", frames.string(), "--scene", "yard", "--radius-uv",
+                            "0.05", "--edge", "64", "--samples", "1"});
+    const std::filesystem::path design = folder.path() / "design.json";
+    std::ofstream(design) << nlohmann::json{
+        {"schema", {{"name", "stairwell design"}, {"major", 1}, {"minor", 0}}},
+        {"name", "frames"},
+        {"frames", "frames"},
+        {"trials_per_condition", 60}};
+    const std::string data = (folder.path() / "study").string();
+    succeed("study_app",
+            {"--headless", "--design", design.string(), "--data", data, "--observers", "8",
+             "--observer", "simulated:c=3.1,observer_sd=0.05,condition_sd=0", "--seed", "4"});
+    succeed("fit_slope", {data, "--out", (folder.path() / "fit").string()});
+    const records::Slope slope = records::readSlope(folder.path() / "fit" / "slope.json");
+    ASSERT_TRUE(slope.c.ci95.has_value());
+    EXPECT_LE(slope.c.ci95->low, 3.1) << records::describe(slope);
+    EXPECT_GE(slope.c.ci95->high, 3.1) << records::describe(slope);
+    EXPECT_LT(slope.c.ci95->high / slope.c.ci95->low, 1.6);
+    EXPECT_EQ(slope.kernel, "pcf_disc");
+    EXPECT_EQ(slope.groups.front().pattern, records::Pattern::frame);
+    EXPECT_THAT(tests::runProgram("shadow_demo", {"--write-frames", frames.string()}).err,
+                HasSubstr("manifest.json: is there already"));
+}
+
 }  // namespace

@@ -29,6 +29,19 @@ SilhouetteOptions line(double angleDeg, double artifactPx = 10) {
     return {.pattern = Pattern::line, .artifactPx = artifactPx, .angleDeg = angleDeg};
 }
 
+StimulusOptions withTaps(const SilhouetteOptions& silhouette, int taps) {
+    StimulusOptions o = options(silhouette, KernelShape::disc);
+    o.taps = TapKernel{.taps = taps};
+    return o;
+}
+
+StimulusOptions withNoise(const SilhouetteOptions& silhouette, double noiseLevels, bool dither) {
+    StimulusOptions o = options(silhouette, KernelShape::disc);
+    o.noiseLevels = noiseLevels;
+    o.dither = dither;
+    return o;
+}
+
 #define PAIR(name, ...) \
     BENCHMARK_CAPTURE(makePairs, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)
 PAIR(stair_disc, options(kStair, KernelShape::disc));
@@ -47,6 +60,13 @@ PAIR(line_40_5_disc_a1, options(line(40.5, 1), KernelShape::disc));
 PAIR(line_40_5_gaussian, options(line(40.5), KernelShape::gaussian));
 PAIR(stair_a10_3_disc, options(kUnevenStair, KernelShape::disc));
 PAIR(step_a10_3_disc, options(kUnevenStep, KernelShape::disc));
+PAIR(stair_poisson16, withTaps(kStair, 16));
+PAIR(step_poisson16, withTaps(kStep, 16));
+PAIR(line_22_5_poisson16, withTaps(line(22.5), 16));
+PAIR(stair_poisson64, withTaps(kStair, 64));
+PAIR(stair_poisson256, withTaps(kStair, 256));
+PAIR(stair_disc_noise, withNoise(kStair, 4, false));
+PAIR(stair_disc_dither, withNoise(kStair, 0, true));
 #undef PAIR
 
 }  // namespace

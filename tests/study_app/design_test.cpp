@@ -17,6 +17,7 @@
 #include "records/json_document.h"
 #include "study_app/design_file.h"
 #include "study_app/random_stream.h"
+#include "tests/study_app/bad_designs.h"
 #include "tests/study_app/test_designs.h"
 
 namespace {
@@ -25,14 +26,11 @@ using nlohmann::json;
 using study_app::Design;
 using testing::AllOf;
 using testing::HasSubstr;
-
-json smallDesign() {
-    return {{"schema", {{"name", "stairwell design"}, {"major", 1}, {"minor", 0}}},
-            {"name", "small"},
-            {"artifact_px", {10, 20}},
-            {"patterns", {"stair", "step"}},
-            {"trials_per_condition", 5}};
-}
+using tests::BadDesign;
+using tests::badDesigns;
+using tests::patched;
+using tests::smallDesign;
+using tests::without;
 
 std::string errorOf(const json& design) {
     try {
@@ -41,171 +39,6 @@ std::string errorOf(const json& design) {
         return error.what();
     }
     return "no error";
-}
-
-json patched(const std::string& pointer, const json& value) {
-    json design = smallDesign();
-    design[json::json_pointer(pointer)] = value;
-    return design;
-}
-
-json without(const std::string& key) {
-    json design = smallDesign();
-    design.erase(key);
-    return design;
-}
-
-struct BadDesign {
-    const char* claim;
-    json design;
-    std::vector<std::string> parts;  // of the sentence: field, value, rule
-};
-
-std::vector<BadDesign> badDesigns() {
-    const json line = {{"pattern", "line"}},
-               turned = {{"pattern", "stair"}, {"orientation", "vertical"}};
-    const auto lineAt = [](json angle) {
-        return json::array({{{"pattern", "line"}, {"angle_deg", angle}}});
-    };
-    return {
-        {"UnknownField", patched("/trails", 5), {"field trails", "unknown"}},
-        {"UnknownQuestField", patched("/quest", {{"betta", 3}}), {"quest.betta", "unknown"}},
-        {"UnknownPatternField",
-         patched("/patterns/0", {{"pattern", "stair"}, {"angel", 3}}),
-         {"patterns[0].angel"}},
-        {"UnknownRadiusField", patched("/radius_px", {{"low", 3}}), {"radius_px.low"}},
-        {"UnknownRovingField", patched("/roving", {{"turn", true}}), {"roving.turn"}},
-        {"NoObject", json::array(), {"must be an object"}},
-        {"NoSchema", without("schema"), {"field schema"}},
-        {"OtherSchema",
-         patched("/schema/name", "stairwell slope"),
-         {"schema.name", "stairwell design"}},
-        {"NewerMajor", patched("/schema/major", 2), {"schema.major", "2"}},
-        {"NoName", without("name"), {"field name"}},
-        {"EmptyName", patched("/name", ""), {"field name"}},
-        {"NameOfTwoLines", patched("/name", "a\nb"), {"field name", "one line"}},
-        {"NoSizes", without("artifact_px"), {"artifact_px"}},
-        {"NoPatterns", without("patterns"), {"patterns"}},
-        {"NoTrials", without("trials_per_condition"), {"trials_per_condition"}},
-        {"EmptySizes", patched("/artifact_px", json::array()), {"artifact_px", "no conditions"}},
-        {"EmptyPatterns", patched("/patterns", json::array()), {"patterns", "no conditions"}},
-        {"EmptyLitLevels", patched("/lit_levels", json::array()), {"lit_levels", "no conditions"}},
-        {"EmptyKernels", patched("/kernels", json::array()), {"kernels", "no conditions"}},
-        {"SizeZero", patched("/artifact_px/1", 0), {"artifact_px[1]", "0", "at least 1"}},
-        {"SizeNegative", patched("/artifact_px/0", -5), {"artifact_px[0]", "-5"}},
-        {"SizeBetweenPixels",
-         patched("/artifact_px/0", 5.5),
-         {"artifact_px[0]", "5.5", "whole number"}},
-        {"SizeAsText", patched("/artifact_px/0", "5"), {"artifact_px[0]", "\"5\"", "number"}},
-        {"SizeNull", patched("/artifact_px/0", nullptr), {"artifact_px[0]", "null"}},
-        {"SizesNoArray", patched("/artifact_px", 5), {"artifact_px", "array"}},
-        {"SizeOfHalfTheWindow",
-         patched("/artifact_px/0", 300),
-         {"artifact_px[0]", "300", "window_px"}},
-        {"SizeTwice",
-         patched("/artifact_px/1", 10),
-         {"artifact_px[1]", "artifact_px[0]", "only once"}},
-        {"HugeSize", patched("/artifact_px/0", 1e300), {"artifact_px[0]"}},
-        {"UnknownPattern",
-         patched("/patterns/0", "stairs"),
-         {"patterns[0].pattern", "\"stairs\"", "stair, step, line"}},
-        {"FramePattern",
-         patched("/patterns/0", "frame"),
-         {"patterns[0].pattern", "stair, step, line"}},
-        {"PatternNumber", patched("/patterns/0", 45), {"patterns[0]", "45"}},
-        {"PatternsNoArray", patched("/patterns", "stair"), {"patterns", "array"}},
-        {"PatternTwice",
-         patched("/patterns/1", {{"pattern", "stair"}}),
-         {"patterns[1]", "patterns[0]"}},
-        {"LineWithoutAngle", patched("/patterns/0", line), {"patterns[0].angle_deg", "missing"}},
-        {"LineAt45", patched("/patterns", lineAt(45)), {"patterns[0].angle_deg", "45"}},
-        {"LineAt0",
-         patched("/patterns", lineAt(0)),
-         {"patterns[0].angle_deg", "0", "greater than 0"}},
-        {"AngleAsText", patched("/patterns", lineAt("20")), {"patterns[0].angle_deg", "\"20\""}},
-        {"StairWithAngle",
-         patched("/patterns/0", {{"pattern", "stair"}, {"angle_deg", 45}}),
-         {"patterns[0].angle_deg", "only a line"}},
-        {"StairWithDirection",
-         patched("/patterns/0", turned),
-         {"patterns[0].orientation", "vertical"}},
-        {"UnknownDirection",
-         patched("/patterns/1", {{"pattern", "step"}, {"orientation", "up"}}),
-         {"patterns[1].orientation", "\"up\""}},
-        {"LitLevelZero", patched("/lit_levels", {0}), {"lit_levels[0]", "0"}},
-        {"LitLevelNegative", patched("/lit_levels", {1, -0.1}), {"lit_levels[1]", "-0.1"}},
-        {"LitLevelAboveOne", patched("/lit_levels", {1.01}), {"lit_levels[0]", "1.01"}},
-        {"LitLevelTwice",
-         patched("/lit_levels", {1, 0.5, 1.0}),
-         {"lit_levels[2]", "lit_levels[0]"}},
-        {"UnknownKernel",
-         patched("/kernels", {"disk"}),
-         {"kernels[0]", "\"disk\"", "disc, box, gaussian"}},
-        {"KernelTwice", patched("/kernels", {"box", "box"}), {"kernels[1]"}},
-        {"UnknownTask", patched("/task", "3afc"), {"task", "2afc, yes_no"}},
-        {"TaskNumber", patched("/task", 2), {"task", "2"}},
-        {"UnknownEncoding", patched("/encoding", "linear"), {"encoding", "srgb, code"}},
-        {"WindowFraction", patched("/window_px", 600.5), {"window_px", "600.5", "whole number"}},
-        {"WindowZero", patched("/window_px", 0), {"window_px", "0"}},
-        {"WindowPair", patched("/window_px", {800, 600}), {"window_px"}},
-        {"NoTrial", patched("/trials_per_condition", 0), {"trials_per_condition", "0", "from 1"}},
-        {"TrialsFraction", patched("/trials_per_condition", 2.5), {"trials_per_condition", "2.5"}},
-        {"TrialsBeyondInt",
-         patched("/trials_per_condition", 3000000000u),
-         {"trials_per_condition"}},
-        {"TrialsInAll",
-         patched("/trials_per_condition", 90000),
-         {"trials_per_condition", "90000", "360000"}},
-        {"CatchShareNegative", patched("/catch_share", -0.1), {"catch_share", "-0.1"}},
-        {"CatchShareAboveHalf", patched("/catch_share", 0.51), {"catch_share", "0.51", "0.5"}},
-        {"RadiusStepOdd", patched("/radius_px", {{"step", 0.3}}), {"radius_px.step", "0.3"}},
-        {"MinAboveMax",
-         patched("/radius_px", {{"min", 100}, {"max", 80}}),
-         {"radius_px.min", "100", "80"}},
-        {"MinIsMax", patched("/radius_px", {{"min", 80}, {"max", 80}}), {"radius_px.min", "80"}},
-        {"MinZero", patched("/radius_px", {{"min", 0}}), {"radius_px.min", "0", "greater than 0"}},
-        {"MinOffTheGrid",
-         patched("/radius_px", {{"min", 1.1}}),
-         {"radius_px.min", "1.1", "multiple"}},
-        {"MaxOffTheGrid",
-         patched("/radius_px", {{"max", 100.5}, {"step", 1}}),
-         {"radius_px.max", "100.5"}},
-        {"MaxBeyondWindow",
-         patched("/radius_px", {{"max", 601}}),
-         {"radius_px.max", "601", "window_px"}},
-        {"GuessAboveMax",
-         patched("/radius_px", {{"max", 50}}),
-         {"quest.guess_ratio", "3", "60", "artifact_px 20"}},
-        {"GuessBelowMin",
-         patched("/quest", {{"guess_ratio", 0.03}}),
-         {"quest.guess_ratio", "0.03", "artifact_px 10"}},
-        {"GuessZero", patched("/quest", {{"guess_ratio", 0}}), {"quest.guess_ratio", "0"}},
-        {"UnknownPreset", patched("/quest", "papers"), {"field quest", "default, paper"}},
-        {"UnknownPresetInside",
-         patched("/quest", {{"preset", "x"}}),
-         {"quest.preset", "default, paper"}},
-        {"QuestNumber", patched("/quest", 3), {"field quest", "3"}},
-        {"PriorSdZero", patched("/quest", {{"prior_sd", 0}}), {"quest.prior_sd", "0"}},
-        {"PriorSdBelowGrain", patched("/quest", {{"prior_sd", 0.0001}}), {"priorSd", "0.0001"}},
-        {"BetaNegative", patched("/quest", {{"beta", -3.5}}), {"quest.beta", "-3.5"}},
-        {"GrainZero", patched("/quest", {{"grain", 0}}), {"quest.grain"}},
-        {"GrainTooFine", patched("/quest", {{"grain", 1e-9}, {"range", 6}}), {"quest", "1000000"}},
-        {"RangeZero", patched("/quest", {{"range", 0}}), {"quest.range", "0"}},
-        {"RangeTooNarrow",
-         patched("/quest", {{"range", 1}}),
-         {"quest.range", "1", "radius_px", "at least 3.6"}},
-        {"DeltaOne", patched("/quest", {{"delta", 1}}), {"quest.delta", "1"}},
-        {"DeltaNegative", patched("/quest", {{"delta", -0.01}}), {"quest.delta", "-0.01"}},
-        {"GammaOf2afc", patched("/quest", {{"gamma", 0.3}}), {"quest.gamma", "0.3", "2afc"}},
-        {"CriterionBelowCurve",
-         patched("/quest", {{"threshold_probability", 0.5}}),
-         {"quest.threshold_probability", "0.5", "inside the curve"}},
-        {"CriterionAboveCurve",
-         patched("/quest", {{"threshold_probability", 0.995}}),
-         {"quest.threshold_probability", "0.995", "0.99"}},
-        {"RovingText", patched("/roving", "yes"), {"roving", "\"yes\""}},
-        {"RovingNumber", patched("/roving", {{"tilt", 1}}), {"roving.tilt", "1"}},
-    };
 }
 
 TEST(Design, RefusesContradictionsWithFieldValueAndRule) {
@@ -386,6 +219,16 @@ Design randomDesign(std::uint64_t seed) {
     d.staircase.beta = 1 + 5 * quest::uniform01(rng);
     if (flip()) d.staircase.range = 5 + quest::uniform01(rng);
     d.radius = {.min = 0.5, .max = 250.5, .step = flip() ? 0.25 : 0.5};
+    d.kernels = flip() ? std::vector<std::string>{"poisson16-still"}
+                       : std::vector<std::string>{"disc", "poisson9"};
+    d.noiseLevels = flip() ? std::vector<double>{0, 2.5} : std::vector<double>{0};
+    d.dither = flip();
+    d.presentation = {.blankS = quest::uniform01(rng),
+                      .between = flip() ? study_app::Between::mask : study_app::Between::blank,
+                      .feedback = flip(),
+                      .breakEveryTrials = static_cast<int>(quest::uniformBelow(rng, 100)),
+                      .practice = {.correct = 1, .ofLast = 2, .atMost = 3}};
+    if (flip()) d.presentation.timeLimitS = 1 + quest::uniform01(rng);
     d.roving = {.shift = flip(), .quarterTurn = flip(), .mirror = flip(), .tilt = flip()};
     return d;
 }
