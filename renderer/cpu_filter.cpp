@@ -121,28 +121,36 @@ float roundedToHalf(float value) {
 template <class Real>
 CpuMap<Real> cpuMap(const Technique& technique, MapView depths, const ConstantsOf<Real>& constants,
                     Storage storage) {
-    CpuMap<Real> map{.depths = depths, .edge = 0, .texels = {}};
+    CpuMap<Real> map{.depths = depths, .edge = 0, .layers = 1, .texels = {}};
     if (technique.prefilter == Prefilter::none) return map;
     const CompiledFilter<Real>& filter = compiled<Real>(technique);
     map.edge = filteredEdge(constants);
+    if (const auto slot = technique.parameterSlot(technique.pairsParameter)) {
+        ParameterValues values{};
+        const auto component = static_cast<glm::length_t>(*slot % 4);
+        values[*slot] = static_cast<float>(constants.parameters[*slot / 4][component]);
+        map.layers = technique.mapLayers(values);
+    }
     const auto pass = [&](const auto& texelAt) {
         std::vector<glm::vec<4, Real>> out;
-        out.reserve(static_cast<std::size_t>(map.edge) * static_cast<std::size_t>(map.edge));
-        for (int y = 0; y < map.edge; ++y)
-            for (int x = 0; x < map.edge; ++x)
-                out.push_back(stored(packedTexel(texelAt(glm::ivec2(x, y)), constants),
-                                     technique.format, storage));
+        out.reserve(static_cast<std::size_t>(map.layers) * static_cast<std::size_t>(map.edge) *
+                    static_cast<std::size_t>(map.edge));
+        for (int layer = 0; layer < map.layers; ++layer)
+            for (int y = 0; y < map.edge; ++y)
+                for (int x = 0; x < map.edge; ++x)
+                    out.push_back(stored(packedTexel(texelAt(glm::ivec2(x, y), layer), constants),
+                                         technique.format, storage));
         map.texels = std::move(out);
     };
-    pass([&](const glm::ivec2& texel) {
+    pass([&](const glm::ivec2& texel, int layer) {
         return filter.mapTexel(casterDepth(depths, texel, constants),
-                               casterSlope(depths, texel, constants), 0, constants);
+                               casterSlope(depths, texel, constants), layer, constants);
     });
     if (kernelTaps(constants) == 0) return map;
     for (const glm::ivec2& axis : {glm::ivec2(1, 0), glm::ivec2(0, 1)})
-        pass([&](const glm::ivec2& texel) {
-            return filteredLine(map.view(), texel, axis, 0, static_cast<int>(technique.prefilter),
-                                constants);
+        pass([&](const glm::ivec2& texel, int layer) {
+            return filteredLine(map.view(), texel, axis, layer,
+                                static_cast<int>(technique.prefilter), constants);
         });
     return map;
 }

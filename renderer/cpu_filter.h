@@ -35,7 +35,8 @@ enum class Storage {
 template <class Real>
 struct CpuMap {
     MapView depths;
-    int edge = 0;                           ///< of the filtered map, guard band included
+    int edge = 0;  ///< of the filtered map, guard band included
+    int layers = 1;
     std::vector<glm::vec<4, Real>> texels;  ///< empty without a prefilter
 
     LayeredMapView<Real> view() const { return {texels.data(), edge}; }

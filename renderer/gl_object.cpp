@@ -18,6 +18,14 @@ void forgetEarlierErrors() {
     }
 }
 
+void checkComplete(GLuint framebuffer, std::string_view label) {
+    const GLenum status = glCheckNamedFramebufferStatus(framebuffer, GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw std::runtime_error("framebuffer \"" + std::string(label) +
+                                 "\": the driver calls it incomplete (status " +
+                                 std::to_string(status) + ")");
+}
+
 Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height, int layers,
                     std::string_view label) {
     GLuint name = 0;
@@ -70,11 +78,17 @@ Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,
         glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(drawBuffers.size()),
                                       drawBuffers.data());
     }
-    const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error("framebuffer \"" + std::string(label) +
-                                 "\": the driver calls it incomplete (status " +
-                                 std::to_string(status) + ")");
+    checkComplete(name, label);
+    setLabel(GL_FRAMEBUFFER, name, label);
+    return framebuffer;
+}
+
+Framebuffer makeLayerFramebuffer(GLuint array, int layer, std::string_view label) {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    Framebuffer framebuffer(name);
+    glNamedFramebufferTextureLayer(name, GL_COLOR_ATTACHMENT0, array, 0, layer);
+    checkComplete(name, label);
     setLabel(GL_FRAMEBUFFER, name, label);
     return framebuffer;
 }

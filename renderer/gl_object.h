@@ -69,14 +69,16 @@ using Query = GlHandle<DeleteQuery>;
 /// shows in GL debuggers. Throws std::runtime_error where the driver has no room for it.
 Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label);
 
-/// The same as a stack of square layers. Attached to a framebuffer it takes drawings to its first
-/// layer.
+/// The same as a stack of square layers.
 Texture makeTextureArray(GLenum internalFormat, int edge, int layers, std::string_view label);
 
 /// Colour attachments in order; `depth` may be 0. Throws std::runtime_error when GL calls it
 /// incomplete.
 Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,
                             std::string_view label);
+
+/// One layer of an array as the only colour attachment.
+Framebuffer makeLayerFramebuffer(GLuint array, int layer, std::string_view label);
 
 Buffer makeBuffer(const void* data, GLsizeiptr bytes, GLbitfield flags, std::string_view label);
 

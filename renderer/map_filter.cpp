@@ -53,17 +53,19 @@ void MapFilter::prepare(const Technique& technique) {
              .substitutions = {}});
 }
 
-void MapFilter::ensureTextures(MapFormat format, int edge, bool keepLarger) {
+void MapFilter::ensureTextures(MapFormat format, int edge, int layers, bool keepLarger) {
     const bool fits = keepLarger ? textureEdge_ >= edge : textureEdge_ == edge;
-    if (fits && format == format_) return;
+    if (fits && format == format_ && layers == layers_) return;
     release();  // two sets at once may be more than there is room for
     for (std::size_t i = 0; i < textures_.size(); ++i) {
         const std::string label = i == 0 ? "filtered map" : "filtered rows";
-        textures_[i] = makeTextureArray(glFormat(format), edge, 1, label);
-        targets_[i] = makeFramebuffer({textures_[i].name()}, 0, label);
+        textures_[i] = makeTextureArray(glFormat(format), edge, layers, label);
+        for (int layer = 0; layer < layers; ++layer)
+            targets_[i].push_back(makeLayerFramebuffer(textures_[i].name(), layer, label));
     }
     format_ = format;
     textureEdge_ = edge;
+    layers_ = layers;
 }
 
 void MapFilter::release() {
@@ -74,42 +76,45 @@ void MapFilter::release() {
 }
 
 std::size_t MapFilter::bytes() const {
-    return textures_.size() * static_cast<std::size_t>(textureEdge_) *
-           static_cast<std::size_t>(textureEdge_) *
+    return textures_.size() * static_cast<std::size_t>(layers_) *
+           static_cast<std::size_t>(textureEdge_) * static_cast<std::size_t>(textureEdge_) *
            static_cast<std::size_t>(bytesPerTexel(format_));
 }
 
 void MapFilter::draw(GLuint source, std::size_t target) {
-    glBindFramebuffer(GL_FRAMEBUFFER, targets_[target].name());
     glViewport(0, 0, usedEdge_, usedEdge_);
     glBindTextureUnit(0, source);
     glBindVertexArray(noGeometry_.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    for (std::size_t layer = 0; layer < targets_[target].size(); ++layer) {
+        glBindFramebuffer(GL_FRAMEBUFFER, targets_[target][layer].name());
+        glUniform1i(0, static_cast<GLint>(layer));
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
 }
 
-void MapFilter::run(const Technique& technique, const f32::ShadowConstants& shadow,
-                    const Texture& depths, int spareN) {
+void MapFilter::run(const Technique& technique, const ParameterValues& parameters,
+                    const f32::ShadowConstants& shadow, const Texture& depths, int spareN) {
     prepare(technique);
     usedEdge_ = 0;
     const int edge = filteredEdge(shadow);
     const int spare = std::max(spareN - static_cast<int>(shadow.map.x), 0);
-    ensureTextures(technique.format, edge + spare, spareN > 0);
+    ensureTextures(technique.format, edge + spare, technique.mapLayers(parameters), spareN > 0);
     usedEdge_ = edge;
     glUseProgram(
         convertPrograms_.at(static_cast<std::size_t>(&technique - techniques().data())).name());
     draw(depths.name(), 0);
     if (kernelTaps(shadow) == 0) return;
     glUseProgram(linePrograms_.at(static_cast<std::size_t>(technique.prefilter)).name());
-    glUniform2i(0, 1, 0);
+    glUniform2i(1, 1, 0);
     draw(textures_[0].name(), 1);
-    glUniform2i(0, 0, 1);
+    glUniform2i(1, 0, 1);
     draw(textures_[1].name(), 0);
 }
 
 FloatImage MapFilter::read() const {
-    FloatImage image(usedEdge_, usedEdge_, 4);
+    FloatImage image(usedEdge_, usedEdge_ * layers_, 4);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureSubImage(textures_[0].name(), 0, 0, 0, 0, usedEdge_, usedEdge_, 1, GL_RGBA,
+    glGetTextureSubImage(textures_[0].name(), 0, 0, 0, 0, usedEdge_, usedEdge_, layers_, GL_RGBA,
                          GL_FLOAT, static_cast<GLsizei>(image.values.size() * sizeof(float)),
                          image.values.data());
     return image;

@@ -25,17 +25,19 @@ class MapFilter {
     /// Filters the N x N depths in the corner of `depths`. `shadow` has to be bound as the shadow
     /// block. `spareN`: textures are at least as large as for that N, so that smaller maps need no
     /// new ones. Throws std::runtime_error where the driver has no room.
-    void run(const Technique& technique, const f32::ShadowConstants& shadow, const Texture& depths,
-             int spareN);
+    void run(const Technique& technique, const ParameterValues& parameters,
+             const f32::ShadowConstants& shadow, const Texture& depths, int spareN);
 
     GLuint map() const { return textures_[0].name(); }
-    /// The last map, guard band included: 4 channels, of which the format has some.
+    /// The last map, guard band included, its layers one below the other: 4 channels, of which the
+    /// format has some.
     FloatImage read() const;
     std::size_t bytes() const;  ///< of both textures
     void release();             ///< gives the textures back
 
   private:
-    void ensureTextures(MapFormat format, int edge, bool keepLarger);
+    void ensureTextures(MapFormat format, int edge, int layers, bool keepLarger);
+    /// Every layer, with the current program.
     void draw(GLuint source, std::size_t target);
 
     ShaderLibrary shaders_;
@@ -44,9 +46,10 @@ class MapFilter {
     std::vector<Program> linePrograms_;     // one per Prefilter
     MapFormat format_ = MapFormat::depth32f;
     int textureEdge_ = 0;
+    int layers_ = 1;
     int usedEdge_ = 0;
     std::array<Texture, 2> textures_;
-    std::array<Framebuffer, 2> targets_;
+    std::array<std::vector<Framebuffer>, 2> targets_;  // one per layer
 };
 
 }  // namespace renderer

@@ -310,7 +310,8 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     }
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
-        mapFilter_.run(technique, shadow_, map_, reservedEdge_);
+        mapFilter_.run(technique, settings.parameters.value_or(technique.standardParameters()),
+                       shadow_, map_, reservedEdge_);
     }
     {
         const PassScope scope(Pass::prepass, clock);

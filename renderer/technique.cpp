@@ -212,6 +212,49 @@ constexpr float kMomentDarkening = 1.0F / 512;  // half an 8-bit level, of the m
 constexpr MomentParameters kMoments32 = momentParameters(0, 3e-6F);
 constexpr MomentParameters kMoments16 = momentParameters(2e-4F, 6e-5F);
 
+constexpr TechniqueParameter kConvolutionParameters[] = {
+    kBiasTexels,
+    biasDepth(1e-3F),
+    kGaussian,
+    {.name = "terms",
+     .meaning = "M, terms of the series",
+     .low = 1,
+     .high = 8,
+     .standard = 8,
+     .whole = true},
+    {.name = "damping",
+     .meaning = "a of exp(-a (k/M)^2): less ringing, more light close behind occluders",
+     .low = 0,
+     .high = 10,
+     .standard = 1},
+    {.name = "scale",
+     .meaning = "factor of the series, which is 1/2 where a receiver is its own occluder",
+     .low = 1,
+     .high = 4,
+     .standard = 2}};
+constexpr Property kConvolutionDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
+
+constexpr TechniqueParameter kLayerParameters[] = {
+    kBiasTexels,
+    biasReaches(1),
+    kGaussian,
+    {.name = "layers",
+     .meaning = "layers of the depth range",
+     .low = 1,
+     .high = 16,
+     .standard = 4,
+     .whole = true},
+    {.name = "least_variance",
+     .meaning = "least variance, in squares of a layer's depth range",
+     .low = 0,
+     .high = 0.01F,
+     .standard = 1e-6F},
+    {.name = "bleeding",
+     .meaning = "light bleeding reduction: visibility that becomes 0",
+     .low = 0,
+     .high = 0.95F,
+     .standard = 0}};
+
 struct PowerParameters {
     TechniqueParameter all[4];
 };
@@ -346,6 +389,25 @@ constexpr Technique kTechniques[] = {
      .parameters = kMoments16.all,
      .planeDarkening = kMomentDarkening,
      .cost = kSeparableCost},
+    {.name = "csm",
+     .title = "Convolution",
+     .paper = "Annen, Mertens, Bekaert, Seidel, Kautz 2007, Convolution shadow maps",
+     .format = MapFormat::rgba16f,
+     .prefilter = Prefilter::mean,
+     .pairsParameter = "terms",
+     .parameters = kConvolutionParameters,
+     .doNotHold = kConvolutionDoesNot,
+     .doNotHoldBecause = "a series of few terms rings behind occluders, whatever N",
+     .cost = "4 texels a pixel and two terms; the prefilter that of a map for every two terms"},
+    {.name = "lvsm",
+     .title = "Layered variance",
+     .paper = kWarpedPaper,
+     .format = MapFormat::rgba32f,
+     .prefilter = Prefilter::mean,
+     .pairsParameter = "layers",
+     .parameters = kLayerParameters,
+     .planeDarkening = 1e-6F,  // rounding of a full layer before the receiver's
+     .cost = "4 texels a pixel and two layers; the prefilter that of a map for every two layers"},
     {.name = "power_cdf",
      .title = "Power CDF, 32 bits",
      .paper = kPowerPaper,
@@ -459,6 +521,11 @@ std::optional<std::size_t> Technique::parameterSlot(std::string_view parameter) 
     for (std::size_t i = 0; i < parameters.size(); ++i)
         if (parameters[i].name == parameter) return i;
     return std::nullopt;
+}
+
+int Technique::mapLayers(const ParameterValues& values) const {
+    const auto slot = parameterSlot(pairsParameter);
+    return slot ? (static_cast<int>(values[*slot]) + 1) / 2 : 1;
 }
 
 std::span<const Technique> techniques() {

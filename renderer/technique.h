@@ -64,6 +64,9 @@ struct Technique {
     std::string_view file = {};  ///< below filters/, without .glsl; empty: the name
     MapFormat format = MapFormat::depth32f;
     Prefilter prefilter = Prefilter::none;
+    /// Name of the parameter that says how many pairs of values are stored, two pairs to a texel of
+    /// a layer; empty: one layer.
+    std::string_view pairsParameter = {};
     bool soft = true;  ///< has a kernel whose radius is the softness
     std::span<const TechniqueParameter> parameters;
     std::span<const Property> doNotHold = {};
@@ -77,6 +80,7 @@ struct Technique {
     std::string shaderFile() const;  ///< "filters/<file>.glsl"
     /// Position in `parameters`, or absent.
     std::optional<std::size_t> parameterSlot(std::string_view parameter) const;
+    int mapLayers(const ParameterValues& values) const;
 };
 
 std::span<const Technique> techniques();

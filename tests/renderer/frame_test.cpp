@@ -172,7 +172,7 @@ double stepOf(const Technique& technique, double largest) {
     switch (technique.format) {
         case MapFormat::rg16f:
         case MapFormat::rgba16f:
-            return largest / 2048;
+            return std::exp2(std::ceil(std::log2(largest))) / 2048;
         case MapFormat::rg16fSplit:
             return 1;  // a high part may fall to the neighbouring step; checked joined below
         case MapFormat::rgba16:

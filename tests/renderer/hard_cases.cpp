@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "tests/renderer/technique_case.h"
@@ -140,6 +141,39 @@ Wide hamburger(const Technique& technique, const Distribution& all, Wide depth) 
     return unit(1 - shadow);
 }
 
+/// The series, term by term on every depth.
+Wide series(const Technique& technique, const Distribution& all, Wide depth) {
+    const int terms = static_cast<int>(parameter(technique, "terms"));
+    const auto moved = [](Wide z) { return 0.05L + 0.9L * z; };
+    const Wide step = all.mean([&](Wide z) {
+        Wide sum = 0.5L;
+        for (int k = 1; k <= terms; ++k) {
+            const Wide c = std::numbers::pi_v<Wide> * (2 * k - 1);
+            const Wide share = static_cast<Wide>(k) / terms;
+            sum += 2 * std::exp(-parameter(technique, "damping") * share * share) *
+                   std::sin(c * (moved(z) - moved(std::max(depth, static_cast<Wide>(0))))) / c;
+        }
+        return sum;
+    });
+    return unit(step * parameter(technique, "scale"));
+}
+
+Wide layered(const Technique& technique, const Distribution& all, Wide depth) {
+    const Wide layers = parameter(technique, "layers");
+    if (depth <= 0) return 1;
+    const Wide last = std::min(std::ceil(depth * layers), layers) - 1;
+    Wide bound = 1;
+    for (Wide layer = 0; layer <= last; ++layer) {
+        const auto warp = [&](Wide z) { return unit(z * layers - layer); };
+        const Wide mean = all.mean(warp);
+        const Wide about = all.mean([&](Wide z) { return (warp(z) - mean) * (warp(z) - mean); });
+        bound = std::min(
+            bound,
+            chebyshev(mean, std::max(about, parameter(technique, "least_variance")), warp(depth)));
+    }
+    return bound;
+}
+
 Wide powerFunction(const Distribution& all, Wide depth) {
     const Wide mean = all.mean([](Wide z) { return z; });
     const Wide range = all.greatest() - all.least();
@@ -167,6 +201,8 @@ std::optional<Wide> formula(const Technique& technique, const HardCase& hard, do
         return std::min(warped(technique, all, depth, parameter(technique, "positive_exponent")),
                         warped(technique, all, depth, -parameter(technique, "negative_exponent")));
     if (file == "msm" || file == "msm16") return hamburger(technique, all, depth);
+    if (file == "csm") return series(technique, all, depth);
+    if (file == "lvsm") return layered(technique, all, depth);
     if (file == "power_cdf") return powerFunction(all, depth);
     return std::nullopt;
 }

@@ -5,10 +5,12 @@
 
 layout(binding = 0) uniform sampler2D depthMap;
 
+layout(location = 0) uniform int layer;
+
 layout(location = 0) out vec4 outTexel;
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    vec4 value = mapTexel(casterDepth(depthMap, texel, shadow), casterSlope(depthMap, texel, shadow), 0, shadow);
+    vec4 value = mapTexel(casterDepth(depthMap, texel, shadow), casterSlope(depthMap, texel, shadow), layer, shadow);
     outTexel = packedTexel(value, shadow);
 }
