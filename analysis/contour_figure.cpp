@@ -142,7 +142,15 @@ std::optional<Figure> isoContours(const SlopeAnalysis& analysis) {
                           return stimulus::straightVisibility(view.silhouette, view.kernel, x, y);
                       }));
         for (std::size_t side = 0; side < 2; ++side) {
-            const double middle = view.trueHeight(0);
+            // Where half the light shows as half the code is not where half the light is.
+            const double half50 = bisect(
+                0, 1, 0.5, [&](double light) { return stimulus::encode(light, view.encoding); });
+            const double reach = stimulus::reach(view.kernel.shape) * view.kernel.radiusPx;
+            const double middle =
+                bisect(view.trueHeight(0) - 2 * reach, view.trueHeight(0) + 2 * reach, half50,
+                       [&](double y) {
+                           return stimulus::straightVisibility(view.silhouette, view.kernel, 0, y);
+                       });
             const double halfHeight = half * kAxesHeightPx / kAxesWidthPx;
             const std::string which = key + "_" + std::to_string(side);
             std::ostringstream plot;

@@ -110,10 +110,13 @@ std::string observerFinding(const SlopeAnalysis& analysis) {
     if (law.tauAtZero) {
         return "No difference between observers was found beyond chance. " + c90;
     }
-    return "Their slopes scatter by a factor of " +
-           fixedText(std::pow(10.0, law.parameters.tau), 2) + " (sd " +
-           fixedText(law.parameters.tau, 3) + " log10 between observers, " +
-           fixedText(law.parameters.omega, 3) + " between an observer's conditions). " + c90;
+    std::string text = "Their slopes scatter by a factor of " +
+                       fixedText(std::pow(10.0, law.parameters.tau), 2) + " (sd " +
+                       fixedText(law.parameters.tau, 3) + " log10 between observers";
+    if (law.parameters.omega > 0 || law.omegaAtZero) {
+        text += ", " + fixedText(law.parameters.omega, 3) + " between an observer's conditions";
+    }
+    return text + "). " + c90;
 }
 
 std::string contrastFinding(const SlopeAnalysis& analysis) {
@@ -124,13 +127,14 @@ std::string contrastFinding(const SlopeAnalysis& analysis) {
     std::string text = "c(C) = c C^e over the lit level C, with e = " + plainText(e) +
                        ": at half the light c is " + atHalf(e.value);
     if (ci95) text += " [" + atHalf(ci95->high) + ", " + atHalf(ci95->low) + "]";
-    text += " times as large. ";
+    text += " times as large.";
     if (!ci95) return text;
     if (ci95->low <= 0 && ci95->high >= 0) {
-        return text + "No effect is demonstrable: use one c at every contrast.";
+        return text + " No effect is demonstrable: use one c at every contrast.";
     }
-    return text + (e.value > 0 ? "Less light needs less blur; c of full light is safe."
-                               : "Less light needs more blur: c of full light is too small there.");
+    return text + (e.value > 0
+                       ? " Less light needs less blur; c of full light is safe."
+                       : " Less light needs more blur: c of full light is too small there.");
 }
 
 // log10 difference as a factor on c.
@@ -177,13 +181,16 @@ std::string staircaseFinding(const SlopeAnalysis& analysis) {
     std::string text = "The staircases' own estimates, which assume beta " +
                        shortText(staircases.assumedBeta) + ", are " +
                        factorText(difference.value, difference.ci95) +
-                       " times those refitted to the same trials (scatter of a single one " +
-                       fixedText(staircases.scatter, 3) + " log10). ";
+                       " times those refitted to the same trials";
+    if (staircases.cells > 1) {
+        text += " (scatter of a single one " + fixedText(staircases.scatter, 3) + " log10)";
+    }
+    text += ".";
     if (!difference.ci95) return text;
     const bool differ = difference.ci95->low > 0 || difference.ci95->high < 0;
-    return text + (differ ? "A slope read off the staircases would be off by that factor; c here "
+    return text + (differ ? " A slope read off the staircases would be off by that factor; c here "
                             "is from the refit."
-                          : "They agree on average.");
+                          : " They agree on average.");
 }
 
 std::string betaFinding(const SlopeAnalysis& analysis) {

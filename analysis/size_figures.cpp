@@ -245,7 +245,8 @@ Figure thresholdAgainstSize(const SlopeAnalysis& analysis) {
     for (std::size_t i = 0; i < panels.size(); ++i) {
         PanelScript script(analysis, panels[i], i, false);
         for (const Series& series : panels[i].series) script.addCurve(series);
-        for (std::size_t s = 0; s < panels[i].series.size(); ++s) script.addPoints(s, true);
+        for (std::size_t s = 0; s < panels[i].series.size(); ++s)
+            script.addPoints(s, !analysis.slope.lawRejected);
         script.addPublished();
         data += script.data();
         plots += axesText(analysis, panels[i], false, radii, keyRows, grid, i) + "plot " +

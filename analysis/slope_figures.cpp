@@ -33,9 +33,13 @@ Figure forest(std::string name, std::string caption, const std::vector<Line>& li
               const std::string& axis, bool named) {
     double low = kPublishedSlope, high = kPublishedSlope;
     std::ostringstream rows[2], second, tics;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        const double row = static_cast<double>(lines.size() - i);
-        const Line& line = lines[i];
+    // A summary has a name, which takes more room than a row without one.
+    const double summaryRows = named ? 1 : 4;
+    double row = 0;
+    for (const Line& line : lines) row += line.style == 1 ? summaryRows : 1;
+    const double allRows = row;
+    for (const Line& line : lines) {
+        if (line.style == 1) row -= summaryRows - 1;
         const double from = c(line.ci95 ? line.ci95->low : line.value);
         const double to = c(line.ci95 ? line.ci95->high : line.value);
         low = std::min(low, from);
@@ -45,12 +49,13 @@ Figure forest(std::string name, std::string caption, const std::vector<Line>& li
         if (named || line.style == 1) {
             tics << (tics.tellp() > 0 ? ", " : "") << quotedForGnuplot(line.name) << ' ' << row;
         }
+        row -= 1;
     }
-    const int rowPx = lines.size() <= 20 ? 26 : lines.size() <= kMostRows ? 18 : 5;
+    const int rowPx = !named ? 5 : lines.size() <= 20 ? 26 : 18;
     std::ostringstream plot;
     plot << "set logscale x\n"
          << "set xrange [" << low / 1.15 << ':' << high * 1.15 << "]\n"
-         << "set yrange [0.3:" << static_cast<double>(lines.size()) + 0.7 << "]\n"
+         << "set yrange [0.3:" << allRows + 0.7 << "]\n"
          << "set xlabel " << quotedForGnuplot(axis) << '\n'
          << "set xtics " << logTics(low / 1.15, high * 1.15) << '\n'
          << "set ytics (" << tics.str() << ") scale 0\n"
@@ -78,7 +83,7 @@ Figure forest(std::string name, std::string caption, const std::vector<Line>& li
     return {.name = std::move(name),
             .caption = std::move(caption),
             .widthPx = 760,
-            .heightPx = 120 + rowPx * static_cast<int>(lines.size()),
+            .heightPx = 120 + static_cast<int>(rowPx * allRows),
             .data = dataBlock("single", rows[0].str()) + dataBlock("second", second.str()) +
                     dataBlock("summary", rows[1].str()),
             .plot = plot.str()};
@@ -105,13 +110,16 @@ Figure slopesByGroup(const SlopeAnalysis& analysis) {
     }
     const WorstGroup& headline = analysis.slope.headline;
     lines.push_back({"headline", headline.value, headline.ci95, 1, {}});
-    lines.push_back({"90th percentile", headline.value90, headline.ci95For90, 1, {}});
-    return forest("slopes_by_group",
-                  "Slope c of every group with its 95 % interval, on a logarithmic scale; the "
-                  "geometric mean over groups; the headline (the worst group, its interval "
-                  "accounting for the choice) for the mean and for the 90th-percentile observer." +
-                      chosen,
-                  lines, "slope c = r/a", true);
+    const bool people = analysis.slope.law.observers > 1;
+    if (people) lines.push_back({"90th percentile", headline.value90, headline.ci95For90, 1, {}});
+    return forest(
+        "slopes_by_group",
+        "Slope c of every group with its 95 % interval where there is one, on a "
+        "logarithmic scale; the geometric mean over groups where there are several; the "
+        "headline, which is the worst group, its interval accounting for the choice" +
+            std::string(people ? ", for the mean and for the 90th-percentile observer." : ".") +
+            chosen,
+        lines, "slope c = r/a", true);
 }
 
 std::optional<Figure> slopesByObserver(const SlopeAnalysis& analysis) {

@@ -20,6 +20,8 @@ namespace {
 constexpr double kBinWidth = 0.08;          // log10 units of r/a
 constexpr std::size_t kMostFunctions = 24;  // panels of psychometric functions
 constexpr std::size_t kTracedObservers = 6, kTraces = 12;
+constexpr double kEdge = 1.2;            // between what is shown and the frame, as a factor
+constexpr double kFunctionReach = 0.45;  // log10 units around the thresholds that are drawn
 constexpr int kCurveSteps = 60;
 
 double c(double log10c) {
@@ -101,8 +103,9 @@ std::string smallAxes(const PanelGrid& grid, std::size_t i, const std::string& t
     std::ostringstream out;
     out << grid.place(i) << "set title " << quotedForGnuplot(title)
         << " font ',11' offset 0,-0.6\nset xlabel "
-        << quotedForGnuplot(i + grid.columns >= grid.count ? xName : "") << "\nset ylabel "
-        << quotedForGnuplot(i % grid.columns == 0 ? yName : "") << " offset 1.8,0\n";
+        << quotedForGnuplot(grid.columns < 3 || i + grid.columns >= grid.count ? xName : "")
+        << "\nset ylabel " << quotedForGnuplot(i % grid.columns == 0 ? yName : "")
+        << " offset 1.8,0\n";
     return out.str();
 }
 
@@ -156,14 +159,16 @@ Figure psychometricFunctions(const SlopeAnalysis& analysis) {
             [](const Function& one, const Function& other) { return one.log10c > other.log10c; });
         functions.resize(kMostFunctions);
     }
-    Extent x;
+    Extent thresholds, x;
     int most = 1;
+    for (const Function& function : functions) thresholds.hold(function.log10c);
+    // Catch trials and first guesses far off would squeeze what matters.
+    thresholds = {thresholds.low - kFunctionReach, thresholds.high + kFunctionReach};
     for (const Function& function : functions) {
         x.hold(function.log10c - 0.2);
         x.hold(function.log10c + 0.2);
         for (const auto& [key, bin] : function.bins) {
-            // Far-off single answers would squeeze what matters.
-            if (bin.trials >= 3) x.hold(bin.sum / bin.trials);
+            x.hold(std::clamp(bin.sum / bin.trials, thresholds.low, thresholds.high));
             most = std::max(most, bin.trials);
         }
     }
@@ -210,7 +215,9 @@ Figure psychometricFunctions(const SlopeAnalysis& analysis) {
         shortText(kBinWidth) + " log10 units; their area grows with the number of answers, up to " +
         std::to_string(most) +
         ". Each observer's radii are scaled by how the fit places this observer against the mean "
-        "observer, so that all share one curve: the figure checks the curve's shape, not c.";
+        "observer, so that all share one curve: the figure checks the curve's shape, not c. "
+        "Answers "
+        "farther than a factor of 2.8 from all thresholds are not drawn.";
     if (byGroup) caption += " Sizes of a group are drawn together.";
     if (all > functions.size()) {
         caption += " Drawn are the " + std::to_string(functions.size()) + " of " +
@@ -228,6 +235,7 @@ Figure staircaseTraces(const SlopeAnalysis& analysis) {
         const Cell& cell = study.observers[trace.observer].cells[trace.cell];
         longest = std::max(longest, cell.trials.size());
         for (const StudyTrial& trial : cell.trials) {
+            if (trial.catchTrial) continue;  // shown where they are easy, far from the rest
             y.hold(trial.radiusPx / study.conditions[cell.condition].artifactPx);
         }
     }
@@ -255,7 +263,8 @@ Figure staircaseTraces(const SlopeAnalysis& analysis) {
         for (const StudyTrial& trial : cell.trials) {
             ++number;
             std::ostringstream row;
-            row << number << ' ' << trial.radiusPx / a << '\n';
+            row << number << ' ' << std::clamp(trial.radiusPx / a, y.low / kEdge, y.high * kEdge)
+                << '\n';
             if (!trial.catchTrial) path << row.str();
             (trial.catchTrial ? caught : trial.yes ? yes : no) << row.str();
         }
@@ -265,9 +274,9 @@ Figure staircaseTraces(const SlopeAnalysis& analysis) {
         std::ostringstream plot;
         plot << smallAxes(grid, i, observer.id + ": " + conditionName(study, cell.condition),
                           "trial", "r/a")
-             << "set logscale y\nset xrange [0:" << longest + 1 << "]\nset yrange [" << y.low / 1.2
-             << ':' << y.high * 1.2 << "]\nset xtics auto\nset ytics "
-             << logTics(y.low / 1.2, y.high * 1.2)
+             << "set logscale y\nset xrange [0:" << longest + 1 << "]\nset yrange ["
+             << y.low / kEdge << ':' << y.high * kEdge << "]\nset xtics auto\nset ytics "
+             << logTics(y.low / kEdge, y.high * kEdge)
              << "\nset grid ytics lc rgb '#dddddd' lw 0.6 dt solid\nunset key\nunset arrow\n";
         if (own != analysis.thresholds.end()) {
             plot << "set arrow 1 from graph 0, first " << c(own->log10c) << " to graph 1, first "
@@ -290,10 +299,11 @@ Figure staircaseTraces(const SlopeAnalysis& analysis) {
     }
     const bool twoAfc = study.task == records::Task::twoAfc;
     std::string caption = "Staircases: r/a from trial to trial in the order of the table. Filled: ";
+    caption += twoAfc ? "correct; hollow: wrong; crosses: catch trials, at the edge where their "
+                        "radius lies beyond it. "
+                      : "seen; hollow: not seen. ";
     caption +=
-        twoAfc ? "correct; hollow: wrong; crosses: catch trials. " : "seen; hollow: not seen. ";
-    caption +=
-        "Dotted: the threshold of the fit for this observer and condition. Chosen: "
+        "Dotted: the observer's own threshold in this condition, where there is one. Chosen: "
         "observers evenly spaced by their c, from the lowest to the highest, in conditions "
         "evenly spaced by theirs, from the largest (" +
         std::to_string(traces.size()) + " of " + std::to_string(analysis.thresholds.size()) +
@@ -358,15 +368,17 @@ std::optional<Figure> residualsAgainstSize(const SlopeAnalysis& analysis) {
         panelData.push_back(data);
         panelPlots.push_back(plot);
     }
+    std::size_t keyRows = 1;
+    for (const Panel& panel : choice.panels) keyRows = std::max(keyRows, panel.series.size());
     const std::size_t columns = std::min<std::size_t>(choice.panels.size(), 3);
     const PanelGrid grid{.count = choice.panels.size(),
                          .columns = columns,
                          .widthPx = columns == 1 ? 520 : 900,
-                         .panelHeightPx = 320,
+                         .panelHeightPx = static_cast<int>(290 + 18 * keyRows),
                          .left = 70,
                          .right = 12,
-                         .top = 60,
-                         .bottom = 66};
+                         .top = 32,
+                         .bottom = 70 + 18.0 * static_cast<double>(keyRows)};
     std::string data, plots;
     for (std::size_t p = 0; p < choice.panels.size(); ++p) {
         if (panelPlots[p].empty()) continue;
@@ -379,8 +391,8 @@ std::optional<Figure> residualsAgainstSize(const SlopeAnalysis& analysis) {
              << ticsAt(panel.sizes, left, right, true) << "\nset ytics "
              << logTics(c(y.low - 0.03), c(y.high + 0.03))
              << "\nset grid ytics lc rgb '#dddddd' lw 0.6 dt solid\n"
-             << "set key at graph 0.5, graph 1.0 center bottom horizontal samplen 1.5 font ',11'\n"
-             << "set title offset 0,0.9\n"
+             << "set key " << grid.below(p, 58) << " left top Left reverse vertical maxrows "
+             << keyRows << " samplen 1.5 spacing 1.15 font ',11.5'\n"
              << "set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 1 lc rgb '" << kInk
              << "'\n";
         data += panelData[p];
