@@ -93,11 +93,15 @@ pre {
   body { font-size: 10.5pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
   h2, h3, .table figcaption { break-after: avoid; }
-  .headline, .note, figure:not(.table), tr { break-inside: avoid; }
+  .headline, .note, figure:not(.table), figcaption, tr, dd { break-inside: avoid; }
+  dt { break-after: avoid; }
   thead { display: table-header-group; }
   .scroll { overflow: visible; max-height: none; border: 0; width: auto; }
   .gallery { grid-template-columns: 1fr 1fr; }
-  .paper svg { max-height: 10cm; }
+  .paper svg { max-height: 20cm; }
+  .paper { padding: 0; border: 0; }
+  table { font-size: .82rem; }
+  th, td { padding: .2rem .5rem; }
   pre { max-height: none; white-space: pre-wrap; overflow-wrap: anywhere; }
 }
 )css";
