@@ -91,20 +91,10 @@ Point randomDirection(std::mt19937_64& rng) {
 }
 
 SharpEdges::SharpEdges(const Silhouette& silhouette, double reachPx)
-    : silhouette_(silhouette), firstTexel_(silhouette.texelAt(-reachPx)) {
-    const std::int64_t last = silhouette.texelAt(reachPx);
-    for (std::int64_t k = firstTexel_; k <= last; ++k) heights_.push_back(silhouette.height(k));
-}
-
-double SharpEdges::artifact(double x, double y) const {
-    const auto texel = static_cast<std::size_t>(silhouette_.texelAt(x) - firstTexel_);
-    const double above = y - heights_[texel];
-    return above > 0 ? 1 : above < 0 ? 0 : 0.5;
-}
-
-double SharpEdges::straight(double x, double y) const {
-    const double d = silhouette_.distance(x, y);
-    return d > 0 ? 1 : d < 0 ? 0 : 0.5;
+    : silhouette_(silhouette), width_(silhouette.texelWidth()) {
+    const std::int64_t first = silhouette.texelAt(-reachPx), last = silhouette.texelAt(reachPx);
+    firstTexel_ = static_cast<double>(first);
+    for (std::int64_t k = first; k <= last; ++k) heights_.push_back(silhouette.height(k));
 }
 
 }  // namespace stimulus

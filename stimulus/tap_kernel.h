@@ -55,12 +55,17 @@ class SharpEdges {
   public:
     /// For points with |x| and |y| up to reachPx.
     SharpEdges(const Silhouette& silhouette, double reachPx);
-    double artifact(double x, double y) const;
-    double straight(double x, double y) const;
+    double artifact(double x, double y) const {
+        // Not negative within the reach, so cutting off is rounding down, and no call of floor().
+        return lit(y - heights_[static_cast<std::size_t>(x / width_ - firstTexel_)]);
+    }
+    double straight(double x, double y) const { return lit(silhouette_.distance(x, y)); }
 
   private:
+    static double lit(double above) { return above > 0 ? 1 : above < 0 ? 0 : 0.5; }
+
     Silhouette silhouette_;
-    std::int64_t firstTexel_;
+    double width_, firstTexel_;
     std::vector<double> heights_;
 };
 

@@ -105,6 +105,12 @@ std::vector<Condition> frameConditions(const Design& design) {
     return result;
 }
 
+void show(records::Trial& trial, const FramePair& frame) {
+    trial.artifactPx = frame.artifactPx;
+    trial.filterRadiusPx = frame.radiusPx;
+    trial.frame = frame.artifact;
+}
+
 const FramePair& nearestFrame(const Condition& condition, double ratio) {
     return *std::ranges::min_element(condition.frames, {}, [&](const FramePair& pair) {
         return std::pair(std::abs(std::log(ratioOf(pair) / ratio)), -ratioOf(pair));

@@ -23,4 +23,7 @@ std::vector<Condition> frameConditions(const Design& design);
 /// with the finer map.
 const records::FramePair& nearestFrame(const Condition& condition, double ratio);
 
+/// Puts a frame into a row: its a, its r and its name.
+void show(records::Trial& trial, const records::FramePair& frame);
+
 }  // namespace study_app

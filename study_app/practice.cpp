@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "study_app/frame_design.h"
+
 namespace study_app {
 namespace {
 
@@ -15,9 +17,9 @@ Design practiceDesign(Design design) {
     return design;
 }
 
-double easyRadius(const records::Trial& trial, int answers, const RadiusLimits& limits) {
-    const double inArtifacts = std::min(1.0, 0.25 + 0.05 * answers);
-    return shownRadius(inArtifacts * trial.artifactPx, limits);
+/// r / a: thresholds lie at about 2 to 4.
+double easyRatio(int answers) {
+    return std::min(1.0, 0.25 + 0.05 * answers);
 }
 
 }  // namespace
@@ -27,7 +29,13 @@ Practice::Practice(const Design& design, std::uint64_t seed, const PracticeRule&
 
 records::Trial Practice::next() const {
     records::Trial trial = session_.next();
-    trial.filterRadiusPx = easyRadius(trial, answers_, session_.design().radius);
+    const double ratio = easyRatio(answers_);
+    const Condition& condition = session_.conditions()[session_.nextCondition()];
+    if (condition.frames.empty()) {
+        trial.filterRadiusPx = shownRadius(ratio * trial.artifactPx, session_.design().radius);
+    } else {
+        show(trial, nearestFrame(condition, ratio));
+    }
     trial.proposedRadiusPx.reset();
     trial.staircase.reset();
     return trial;

@@ -66,12 +66,6 @@ int imageSeed(std::uint64_t seed, std::size_t row) {
     return static_cast<int>(engineAt(seed, Purpose::image, row)() >> 33);
 }
 
-void show(Trial& trial, const records::FramePair& frame) {
-    trial.artifactPx = frame.artifactPx;
-    trial.filterRadiusPx = frame.radiusPx;
-    trial.frame = frame.artifact;
-}
-
 std::vector<std::string_view> cells(std::string_view line) {
     std::vector<std::string_view> result;
     for (std::size_t end = line.find('\t'); end != line.npos; end = line.find('\t')) {

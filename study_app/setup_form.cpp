@@ -66,6 +66,26 @@ std::string plural(std::size_t count, const std::string& noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+std::string describeFrames(const Design& d) {
+    const auto name = [](const Condition& c) { return c.name; };
+    return "rendered frames, " + d.frames->pairs.front().technique + ": " +
+           joined(conditions(d), name);
+}
+
+std::string describeEdges(const Design& d) {
+    const auto number = [](auto value) { return records::exactText(static_cast<double>(value)); };
+    const auto itself = [](const std::string& text) { return text; };
+    std::string text = "steps of " + joined(d.artifactPx, number) + " px; " +
+                       joined(d.patterns, describe) + "; " + joined(d.kernels, itself) + " filter";
+    if (d.litLevels != std::vector<double>{1.0}) {
+        text += "; lit level " + joined(d.litLevels, number);
+    }
+    if (d.noiseLevels != std::vector<double>{0.0}) {
+        text += "; noise of " + joined(d.noiseLevels, number) + " levels";
+    }
+    return text;
+}
+
 std::string describeTable(const fs::path& table) {
     try {
         const Session session = replayTable(table).session;
@@ -174,17 +194,13 @@ Design designOf(const SetupForm& form, const std::optional<Design>& begun) {
 }
 
 std::vector<std::string> describeDesign(const Design& d) {
-    const auto number = [](auto value) { return records::exactText(static_cast<double>(value)); };
-    const auto itself = [](const std::string& text) { return text; };
+    const std::string shown = d.frames ? "picture" : "edge";
     std::vector<std::string> lines;
     lines.push_back(d.task == records::Task::twoAfc
-                        ? "Two edges side by side; which one has stair-steps?"
-                        : "One edge at a time; does it have stair-steps?");
-    lines.push_back(
-        plural(conditions(d).size(), "condition") + ": steps of " + joined(d.artifactPx, number) +
-        " px; " + joined(d.patterns, describe) + "; " + joined(d.kernels, itself) + " filter" +
-        (d.litLevels == std::vector<double>{1.0} ? std::string()
-                                                 : "; lit level " + joined(d.litLevels, number)));
+                        ? "Two " + shown + "s side by side; which one has stair-steps?"
+                        : "One " + shown + " at a time; does it have stair-steps?");
+    lines.push_back(plural(conditions(d).size(), "condition") + ": " +
+                    (d.frames ? describeFrames(d) : describeEdges(d)));
     char text[160];
     std::snprintf(text, sizeof text,
                   "%d trials (%d per condition, %d to check attention), about %.0f minutes",

@@ -290,6 +290,10 @@ TEST(StudyApp, AnswersMisuseWithOneSentence) {
         {{"--replay", "/nowhere/x.tsv"}, 1, "/nowhere/x.tsv"},
         {{"--replay", ""}, 1, "--replay"},
         {{"--list-designs", "--headless"}, 2, "--headless"},
+        {{"--check", "nothing"}, 1, "nothing"},
+        {{"--check", "quick", "--data", data}, 2, "--data"},
+        {{"--check", "quick", "--observer", "human"}, 1, "human"},
+        {{"--px-per-deg", "60"}, 2, "--check"},
         {with({"--seed", "-1"}), 2, "-1"},
         {with({"--seed", "18446744073709551616"}), 2, "--seed"},
         {with({"--seed", "1.5"}), 2, "1.5"},
@@ -323,6 +327,18 @@ TEST(StudyApp, ListsTheShippedDesigns) {
     EXPECT_EQ(result.exitCode, 0);
     for (const char* name : {"paper16 ", "paper24 ", "quick "})
         EXPECT_THAT(result.out, HasSubstr(name));
+}
+
+TEST(StudyApp, ChecksEveryShippedDesign) {
+    for (const char* design : {"paper16", "paper24", "quick"}) {
+        const auto result = studyApp({"--check", tests::shippedDesignFile(design).string(),
+                                      "--observers", "20", "--px-per-deg", "60"});
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_THAT(result.out,
+                    AllOf(HasSubstr("minutes a session"), HasSubstr("sd with 20 observers"),
+                          HasSubstr("a pixel is 1.00 arc minutes")));
+        EXPECT_THAT(result.out, testing::Not(HasSubstr("warning"))) << "a shipped design fits";
+    }
 }
 
 }  // namespace
