@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 
 #include "analysis/gnuplot.h"
 #include "analysis/number_text.h"
@@ -30,6 +31,16 @@ std::string withoutDate(std::string pdf) {
                   pdf.begin() + static_cast<std::ptrdiff_t>(end) + 1, ' ');
     }
     return pdf;
+}
+
+// gnuplot titles what has no title in the key by its command, and a browser shows that under the
+// mouse.
+std::string withoutCommands(std::string svg) {
+    constexpr std::string_view kStart = "<title>$", kEnd = "</title>";
+    for (std::size_t at; (at = svg.find(kStart)) != std::string::npos;) {
+        svg.erase(at, svg.find(kEnd, at) + kEnd.size() - at);
+    }
+    return svg;
 }
 
 }  // namespace
@@ -64,7 +75,8 @@ void drawFigures(const std::filesystem::path& folder, std::span<const Figure> fi
     runGnuplot(folder, scripts);
     for (const Figure& figure : figures) {
         const std::filesystem::path svg = folder / (figure.name + ".svg");
-        records::writeWholeFile(svg, records::svgForBothSchemes(records::readWholeFile(svg)));
+        records::writeWholeFile(
+            svg, records::svgForBothSchemes(withoutCommands(records::readWholeFile(svg))));
         const std::filesystem::path pdf = folder / (figure.name + ".pdf");
         records::writeWholeFile(pdf, withoutDate(records::readWholeFile(pdf)));
     }

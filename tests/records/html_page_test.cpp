@@ -54,6 +54,7 @@ TEST(HtmlPage, EscapesEveryTextItIsGiven) {
     page.svg("<svg></svg>", evil);
     page.image(folder / "a.png", evil, evil);
     page.preformatted(evil);
+    page.terms({{evil, evil}});
     EXPECT_THAT(page.text(), Not(HasSubstr("<script")));
 }
 
@@ -80,6 +81,31 @@ TEST(HtmlPage, PadsBase64) {
         page.image(folder / "a.png", "", "");
         EXPECT_THAT(page.text(), HasSubstr(text));
     }
+}
+
+TEST(HtmlPage, ListsTermsWithTheirTexts) {
+    HtmlPage page("t");
+    page.terms({{"law", "holds"}, {"light", "does not matter"}});
+    EXPECT_THAT(page.text(), HasSubstr("<dl>\n<dt>law</dt><dd>holds</dd>\n<dt>light</dt>"));
+}
+
+TEST(SvgForBothSchemes, AddsAStyleThatThePageTakesOutAgain) {
+    const std::string svg = "<?xml version=\"1.0\"?>\n<svg width=\"3\"><path d=\"M0,0\"/></svg>\n";
+    const std::string both = svgForBothSchemes(svg);
+    EXPECT_THAT(both, HasSubstr("prefers-color-scheme: dark"));
+    EXPECT_THAT(both, HasSubstr("<svg width=\"3\">\n<style>"));
+    HtmlPage page("t"), plain("t");
+    page.svg(both, "");
+    plain.svg(svg, "");
+    // The page's own style says it once for all figures.
+    const auto count = [](const std::string& text) {
+        std::size_t n = 0;
+        for (std::size_t at = 0; (at = text.find("invert(", at)) != std::string::npos; ++at) ++n;
+        return n;
+    };
+    EXPECT_EQ(count(page.text()), count(plain.text()));
+    EXPECT_THAT(errorOf<std::invalid_argument>([] { svgForBothSchemes("no figure"); }),
+                HasSubstr("no <svg>"));
 }
 
 TEST(HtmlPage, AlignsColumnsOfNumbersToTheRight) {
