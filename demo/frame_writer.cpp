@@ -154,7 +154,9 @@ void writeFrames(const fs::path& folder, renderer::Renderer& frame, const render
                   .parameters = plan.parameters,
                   .resolution = sizeFor(kMostFrameRatio, plan.radiusUv),
                   .radiusUv = static_cast<float>(plan.radiusUv)});
-    const double px = pxPerUv(frame);
+    // Two decimals keep the conditions' names short; the artifact follows, so that r / a stays
+    // exact.
+    const double radiusPx = std::max(0.01, std::round(100 * plan.radiusUv * pxPerUv(frame)) / 100);
     const std::string convergedName = write(converged);
     records::FrameManifest manifest{.context = context, .pairs = {}};
     int before = 0;
@@ -164,8 +166,8 @@ void writeFrames(const fs::path& folder, renderer::Renderer& frame, const render
         before = resolution;
         manifest.pairs.push_back({.artifact = write(resolution),
                                   .converged = convergedName,
-                                  .artifactPx = px / resolution,
-                                  .radiusPx = px * plan.radiusUv,
+                                  .artifactPx = radiusPx / (plan.radiusUv * resolution),
+                                  .radiusPx = radiusPx,
                                   .scene = scene,
                                   .technique = technique});
     }
