@@ -335,7 +335,7 @@ TEST(StudyApp, ChecksEveryShippedDesign) {
                                       "--observers", "20", "--px-per-deg", "60"});
         EXPECT_EQ(result.exitCode, 0) << result.err;
         EXPECT_THAT(result.out,
-                    AllOf(HasSubstr("minutes a session"), HasSubstr("sd with 20 observers"),
+                    AllOf(HasSubstr("conditions, "), HasSubstr("sd with 20 observers"),
                           HasSubstr("a pixel is 1.00 arc minutes")));
         EXPECT_THAT(result.out, testing::Not(HasSubstr("warning"))) << "a shipped design fits";
     }

@@ -15,6 +15,7 @@
 #include "study_app/setup_form.h"
 #include "study_app/trial_stimulus.h"
 #include "study_app/undo.h"
+#include "tests/study_app/frame_folder.h"
 #include "tests/temporary_folder.h"
 
 namespace study_app {
@@ -221,6 +222,26 @@ TEST(Practice, ShowsArtifactsThatNobodyOverlooks) {
         practice.answer(Response::seen);
     }
     EXPECT_EQ(references, 20);
+}
+
+TEST(Practice, ShowsTheCoarsestMapsOfFrames) {
+    const tests::TemporaryFolder folder;
+    tests::writeFrameFolder(folder.path(), {0.75, 1, 2, 4, 8});
+    Design d;
+    d.name = "frames";
+    d.windowPx = tests::kFrameEdgePx;
+    d.frames = FrameSet{folder.path(), records::readFrameManifest(folder.path()).pairs};
+    d.roving = {.shift = false, .quarterTurn = false, .tilt = false};
+    Practice practice(d, 3, {});
+    for (int i = 0; i < 30; ++i) {
+        const Trial trial = practice.next();
+        EXPECT_LE(trial.filterRadiusPx, trial.artifactPx);
+        const auto& pairs = d.frames->pairs;
+        const auto shown =
+            std::ranges::find(pairs, trial.frame.value(), &records::FramePair::artifact);
+        EXPECT_EQ(trial.artifactPx, shown->artifactPx);
+        practice.answer(Response::left);
+    }
 }
 
 TEST(TrialStimulus, IsWhatStimulusComputesOnTheSideThatTheRowNames) {
