@@ -63,16 +63,23 @@ SHARED_FUNCTION real kernelReach(ShadowConstants shadow) {
 // Texels to either side of the middle one that the kernel touches.
 SHARED_FUNCTION int kernelTaps(ShadowConstants shadow) { return int(ceil(max(kernelReach(shadow) - real(0.5), real(0.0)))); }
 
-// The kernel's share of the texel i texels from its centre, up to a factor.
-SHARED_FUNCTION real tapWeight(int i, ShadowConstants shadow) {
-    real x = real(i);
-    if (shadow.prefilter.y != real(0.0)) {
-        // A Gaussian averaged over a texel is nearly a Gaussian with the texel's variance added.
-        real variance = shadow.prefilter.x * shadow.prefilter.x + real(1.0 / 12.0);
-        return exp(-real(0.5) * x * x / variance);
-    }
-    real reach = max(kernelReach(shadow), real(1e-6));
-    return max(min(x + real(0.5), reach) - max(x - real(0.5), -reach), real(0.0));
+// The kernel's shares of the texels from its middle outwards, up to a factor: 1, and from each to the next times
+// `ratio`, which itself changes by `change`; the outermost also times `rim`. The box is even up to the part of the
+// outermost texel that it covers; a Gaussian averaged over a texel is nearly one with the texel's variance added.
+struct TapWeights {
+    real ratio;
+    real change;
+    real rim;
+};
+
+SHARED_FUNCTION TapWeights tapWeights(ShadowConstants shadow) {
+    TapWeights weights;
+    real variance = shadow.prefilter.x * shadow.prefilter.x + real(1.0 / 12.0);
+    bool gaussian = shadow.prefilter.y != real(0.0);
+    weights.ratio = gaussian ? exp(real(-0.5) / variance) : real(1.0);
+    weights.change = gaussian ? exp(real(-1.0) / variance) : real(1.0);
+    weights.rim = gaussian ? real(1.0) : kernelReach(shadow) + real(0.5) - real(kernelTaps(shadow));
+    return weights;
 }
 
 // How taps join: the numbers are Prefilter in technique.h.
@@ -91,6 +98,12 @@ SHARED_FUNCTION real4 joinedTap(int prefilter, real4 sum, real4 value, real weig
     return real4(sum.x + value.x * weight, min(sum.y, value.y), max(sum.z, value.z), 0.0);
 }
 
+// Beyond the guard band everything is as on its rim.
+SHARED_FUNCTION real4 lineTexel(sampler2DArray map, int2 texel, int layer, int last, ShadowConstants shadow) {
+    int2 at = clamp(texel, int2(0, 0), int2(last, last));
+    return unpackedTexel(texelFetch(map, int3(at.x, at.y, layer), 0), shadow);
+}
+
 // One line of the prefilter through a texel, axis (1,0) or (0,1).
 SHARED_FUNCTION real4 filteredLine(sampler2DArray map, int2 texel, int2 axis, int layer, int prefilter,
                                    ShadowConstants shadow) {
@@ -99,13 +112,16 @@ SHARED_FUNCTION real4 filteredLine(sampler2DArray map, int2 texel, int2 axis, in
     real4 sum = real4(0.0);
     if (prefilter == kPrefilterLogMean) sum = real4(-1e30, 0.0, 0.0, 0.0);
     if (prefilter == kPrefilterMinMaxMean) sum = real4(0.0, 2.0, -1.0, 0.0);
-    real total = real(0.0);
-    for (int i = -taps; i <= taps; ++i) {
-        // Beyond the guard band everything is as on its rim.
-        int2 at = clamp(texel + axis * i, int2(0, 0), int2(last, last));
-        real weight = tapWeight(i, shadow);
-        sum = joinedTap(prefilter, sum, unpackedTexel(texelFetch(map, int3(at.x, at.y, layer), 0), shadow), weight);
-        total += weight;
+    sum = joinedTap(prefilter, sum, lineTexel(map, texel, layer, last, shadow), real(1.0));
+    TapWeights weights = tapWeights(shadow);
+    real weight = real(1.0);
+    real total = real(1.0);
+    for (int i = 1; i <= taps; ++i) {
+        weight *= i == taps ? weights.ratio * weights.rim : weights.ratio;
+        weights.ratio *= weights.change;
+        sum = joinedTap(prefilter, sum, lineTexel(map, texel - axis * i, layer, last, shadow), weight);
+        sum = joinedTap(prefilter, sum, lineTexel(map, texel + axis * i, layer, last, shadow), weight);
+        total += real(2.0) * weight;
     }
     if (prefilter == kPrefilterMean) return sum / total;
     if (prefilter == kPrefilterLogMean) return real4(sum.x + log(sum.y / total), 0.0, 0.0, 0.0);
