@@ -54,7 +54,8 @@ Instructions readInstructions(const fs::path& file) {
 
 fs::path shippedInstructions(const Design& design) {
     const std::string name =
-        design.localise ? "localise.txt" : std::string(records::toText(design.task)) + ".txt";
+        (design.frames ? "frames_" : "") +
+        (design.localise ? "localise" : std::string(records::toText(design.task))) + ".txt";
     std::string searched;
     for (const fs::path& designs : designFolders()) {
         const fs::path file = designs.parent_path() / "instructions" / name;

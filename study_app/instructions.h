@@ -29,8 +29,8 @@ Instructions parseInstructions(std::string_view text);
 Instructions readInstructions(const std::filesystem::path& file);
 
 /// The shipped text for a design's task: instructions/2afc.txt, yes_no.txt, or localise.txt where
-/// yes is a click, beside the shipped designs. Throws std::runtime_error naming the places
-/// searched.
+/// yes is a click, with frames_ before the name for rendered frames, beside the shipped designs.
+/// Throws std::runtime_error naming the places searched.
 std::filesystem::path shippedInstructions(const Design& design);
 
 }  // namespace study_app

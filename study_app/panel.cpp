@@ -34,11 +34,15 @@ double slopeAt(double x0) {
 }
 
 /// A staircase's trials, c = r/a on a logarithmic axis with large radii on top, the estimate as a
-/// line.
-void drawTrace(const quest::Quest& staircase, ImVec2 size) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+/// line, the ends of the axis in numbers.
+void drawTrace(const Page& page, const quest::Quest& staircase, ImVec2 size) {
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(size);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPlotColor, 3);
+    const ImVec2 corner{at.x + page.px(4), at.y};
+    at.x += page.px(34);
+    size.x -= page.px(34);
     const auto history = staircase.history();
     const double mean = staircase.mean();
     double spread = 0.3;
@@ -56,13 +60,9 @@ void drawTrace(const quest::Quest& staircase, ImVec2 size) {
     }
     const std::string top = formatted("%.1f", slopeAt(mean - spread)),
                       bottom = formatted("%.1f", slopeAt(mean + spread));
-    const float line = ImGui::GetTextLineHeight();
-    if (size.y > 2 * line) {
-        const ImU32 faded = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-        draw.AddText({at.x + 4, at.y}, faded, top.c_str());
-        draw.AddText({at.x + 4, at.y + size.y - line}, faded, bottom.c_str());
-    }
-    ImGui::Dummy(size);
+    const ImU32 faded = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    draw.AddText(corner, faded, top.c_str());
+    draw.AddText({corner.x, corner.y + size.y - ImGui::GetTextLineHeight()}, faded, bottom.c_str());
 }
 
 /// The posterior over x0 around the prior's mean, c growing to the right.
@@ -97,7 +97,7 @@ void drawStaircases(const Page& page, const Session& session) {
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableHeadersRow();
     const float room = ImGui::GetContentRegionAvail().y / static_cast<float>(count) - page.px(9);
-    const float height = std::clamp(room, page.px(38), page.px(90));
+    const float height = std::clamp(room, page.px(38), page.px(120));
     for (std::size_t k = 0; k < count; ++k) {
         const quest::Quest& staircase = session.staircase(k);
         ImGui::TableNextRow();
@@ -110,7 +110,7 @@ void drawStaircases(const Page& page, const Session& session) {
                                             slopeAt(staircase.quantile(0.025)))
                                       .c_str());
         ImGui::TableNextColumn();
-        drawTrace(staircase, {ImGui::GetContentRegionAvail().x, height});
+        drawTrace(page, staircase, {ImGui::GetContentRegionAvail().x, height});
         ImGui::TableNextColumn();
         drawPosterior(staircase, {ImGui::GetContentRegionAvail().x, height});
     }
@@ -196,12 +196,15 @@ void drawPanel(const AppState& state, const Page& page) {
         drawState(page, *state.runner);
         ImGui::Dummy({0, page.px(4)});
         ImGui::PushFont(page.window.fonts().small);
-        const float trials = std::min(page.px(470), 0.45f * w);
-        ImGui::BeginChild("left", {ImGui::GetContentRegionAvail().x - trials - page.px(16), 0});
+        // Side by side where there is room, else the trials below.
+        const ImVec2 room = ImGui::GetContentRegionAvail();
+        const bool beside = room.x > page.px(980);
+        ImGui::BeginChild("staircases",
+                          beside ? ImVec2{room.x - page.px(486), 0} : ImVec2{0, 0.6f * room.y});
         drawStaircases(page, state.runner->session());
         ImGui::EndChild();
-        ImGui::SameLine(0, page.px(16));
-        ImGui::BeginChild("right", {0, 0});
+        if (beside) ImGui::SameLine(0, page.px(16));
+        ImGui::BeginChild("trials", {0, 0});
         drawTrials(*state.runner);
         ImGui::EndChild();
         ImGui::PopFont();

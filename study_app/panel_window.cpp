@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "study_app/page_parts.h"
 
@@ -14,8 +15,11 @@ void PanelWindow::toggle() {
     if (window_) {
         window_.reset();
     } else {
-        const WindowOptions options{.widthPx = 1180,
-                                    .heightPx = 860,
+        const auto px = [&](float atScale1) {
+            return static_cast<int>(std::lround(atScale1 * study_.uiScale()));
+        };
+        const WindowOptions options{.widthPx = px(1180),
+                                    .heightPx = px(920),
                                     .uiScale = uiScale_,
                                     .title = "Stairwell experimenter"};
         window_ = std::make_unique<Window>(options, study_);

@@ -93,10 +93,10 @@ void drawGamma(CalibrationState& c, const Page& page) {
     ImGui::SameLine(0, page.px(16));
     ImGui::BeginGroup();
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##grey", &c.greyCode, 128, 232, "code %d")) c.gammaGiven = true;
-    ImGui::TextUnformatted(c.gammaGiven
-                               ? formatted("gamma %.2f", gammaFromGreyCode(c.greyCode)).c_str()
-                               : "not matched yet");
+    if (ImGui::SliderInt("##grey", &c.greyCode, 128, 232, "")) c.gammaGiven = true;
+    const std::string gamma =
+        c.gammaGiven ? formatted("gamma %.2f", gammaFromGreyCode(c.greyCode)) : "not matched yet";
+    ImGui::TextUnformatted(formatted("code %d: ", c.greyCode).append(gamma).c_str());
     ImGui::EndGroup();
 }
 
@@ -130,15 +130,16 @@ void drawAngles(const AppState& state, const Page& page) {
     paragraph(formatted("%.1f px per degree; one pixel is %.2f arc minutes",
                         pxPerDeg(pxPerMm, distanceMm), arcMinutes(1, pxPerMm, distanceMm)));
     if (!state.setup.design) return;
+    const int window = state.setup.design->windowPx;
+    faint(page, formatted("The stimulus is %d px, %.1f° wide.", window,
+                          arcMinutes(window, pxPerMm, distanceMm) / 60));
+    if (state.setup.design->frames) return;
     std::string sizes = "Steps of ";
     for (const int a : state.setup.design->artifactPx) {
         if (sizes.size() > 9) sizes += ", ";
         sizes += formatted("%d px: %.1f'", a, arcMinutes(a, pxPerMm, distanceMm));
     }
-    const int window = state.setup.design->windowPx;
     faint(page, sizes);
-    faint(page, formatted("The stimulus is %d px, %.1f° wide.", window,
-                          arcMinutes(window, pxPerMm, distanceMm) / 60));
 }
 
 }  // namespace

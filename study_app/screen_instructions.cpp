@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "stimulus/stimulus_image.h"
+#include "study_app/frame_images.h"
 #include "study_app/page_parts.h"
 #include "study_app/screens.h"
 
@@ -19,9 +22,36 @@ stimulus::StimulusOptions exampleStimulus(const Design& design, int edgePx) {
     return o;
 }
 
+struct Examples {
+    cv::Mat steps, straight;
+};
+
+Examples edgeExamples(const Design& design, int edgePx) {
+    const stimulus::StimulusOptions example = exampleStimulus(design, edgePx);
+    return {stimulus::artifactImage(example), stimulus::straightImage(example)};
+}
+
+/// Of the pair whose steps are plainest, the part in which the two differ most.
+Examples frameExamples(const Design& design, int edgePx) {
+    const Condition condition = conditions(design).front();
+    const records::FramePair& plainest = condition.frames.front();
+    const cv::Mat steps = readFrame(design.frames->folder / plainest.artifact, design.windowPx);
+    const cv::Mat straight = readFrame(design.frames->folder / plainest.converged, design.windowPx);
+    cv::Mat difference;
+    cv::absdiff(steps, straight, difference);
+    cv::Point middle;
+    cv::minMaxLoc(difference, nullptr, nullptr, nullptr, &middle);
+    const int edge = std::min(edgePx, design.windowPx);
+    const auto begin = [&](int at) { return std::clamp(at - edge / 2, 0, design.windowPx - edge); };
+    const cv::Rect part(begin(middle.x), begin(middle.y), edge, edge);
+    return {steps(part).clone(), straight(part).clone()};
+}
+
 void drawExamples(const AppState& state, const Page& page) {
     const auto edge = static_cast<int>(page.px(190));
-    const stimulus::StimulusOptions example = exampleStimulus(*state.setup.design, edge);
+    const Design& design = *state.setup.design;
+    const Examples examples =
+        design.frames ? frameExamples(design, edge) : edgeExamples(design, edge);
     const auto captioned = [&](const cv::Mat& codes, const char* caption) {
         ImGui::BeginGroup();
         image(page, codes);
@@ -29,9 +59,9 @@ void drawExamples(const AppState& state, const Page& page) {
         ImGui::EndGroup();
     };
     ImGui::Dummy({0, page.px(4)});
-    captioned(stimulus::artifactImage(example), "with steps");
+    captioned(examples.steps, "with steps");
     ImGui::SameLine(0, page.px(28));
-    captioned(stimulus::straightImage(example), "straight");
+    captioned(examples.straight, "without steps");
     ImGui::Dummy({0, page.px(8)});
 }
 

@@ -14,6 +14,9 @@ for part in quest stimulus controller study_app; do
     "$bin/${part}_benchmark" --benchmark_min_time=0.2 2>/dev/null || die "${part}_benchmark failed"
 done
 
+section "the study's window"
+"$root/tests/study_app/window_numbers.sh" "$bin" || die "window_numbers.sh failed"
+
 section "simulated study: paper16, 10 observers x 16 conditions x 40 trials, three times"
 for seed in 1 2 3; do
     "$bin/study_app" --headless --design paper16 --data "$work/study-$seed" --observers 10 \

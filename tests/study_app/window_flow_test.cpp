@@ -270,6 +270,12 @@ TEST(Instructions, AreShippedForEveryTask) {
     design.localise = true;
     EXPECT_NE(shippedInstructions(design), keys);
     EXPECT_FALSE(readInstructions(shippedInstructions(design)).empty());
+    design.localise = false;
+    design.frames.emplace();
+    EXPECT_NE(shippedInstructions(design), keys);
+    EXPECT_FALSE(readInstructions(shippedInstructions(design)).empty());
+    design.task = records::Task::twoAfc;
+    EXPECT_FALSE(readInstructions(shippedInstructions(design)).empty());
 }
 
 }  // namespace

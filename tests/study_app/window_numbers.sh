@@ -9,6 +9,8 @@ if [ -z "${STAIRWELL_XVFB-}" ]; then
     STAIRWELL_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24' "$0" "$bin"
 fi
 
+printf 'revision %s, %s, %s cores, load %s\n\n' "$("$bin/study_app" --version)" \
+    "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)" "$(cut -d' ' -f1 /proc/loadavg)"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 study() { # NAME ARGUMENT...: starts study_app in the background, its events in $work/NAME.log
@@ -64,20 +66,20 @@ printf 'idle, stimulus on screen: '
 percentOfACore
 end
 
-# A second before each answer, as an observer who is quick.
-speed() { # NAME FIELDS
-    design "$1" 600 "${3:-50}" "$2"
-    study "$1" --design "$work/$1.json" --start --robot 1 --timing
+# An observer who is quick.
+speed() { # NAME FIELDS TRIALS_PER_CONDITION WORDS
+    design "$1" 600 "$3" "$2"
+    study "$1" --design "$work/$1.json" --start --robot 0.7 --timing
     wait "$app" || { cat "$work/$1.out" >&2; exit 1; }
     printf '%-34s %s\n' "$4" "$(sed 's/.*pause: //' "$work/$1.out")"
 }
-printf '\nanswer to next stimulus, 2 x 600 x 600 px, answers after 1 s, no pause between:\n'
-speed stair '"artifact_px": [10, 30], "patterns": ["stair"]' 50 "stair"
-speed step '"artifact_px": [10, 30], "patterns": ["step"]' 50 "step"
-speed line '"artifact_px": [10, 30], "patterns": [{"pattern": "line", "angle_deg": 10}, {"pattern": "line", "angle_deg": 22.5}]' 25 "lines of 10 and 22.5 degrees"
-speed gauss '"artifact_px": [10, 30], "patterns": [{"pattern": "line", "angle_deg": 10}], "kernels": ["gaussian"]' 50 "line, gaussian"
-speed taps '"artifact_px": [10, 30], "patterns": ["stair"], "kernels": ["poisson16"]' 50 "stair, 16 turned taps"
-speed noise '"artifact_px": [10, 30], "patterns": ["stair"], "noise_levels": [4], "dither": true' 50 "stair, image noise and dither"
+printf '\nanswer to next stimulus, 2 x 600 x 600 px, answers after 0.7 s, no pause between:\n'
+speed stair '"artifact_px": [10, 30], "patterns": ["stair"]' 30 "stair"
+speed step '"artifact_px": [10, 30], "patterns": ["step"]' 30 "step"
+speed line '"artifact_px": [10, 30], "patterns": [{"pattern": "line", "angle_deg": 10}, {"pattern": "line", "angle_deg": 22.5}]' 15 "lines of 10 and 22.5 degrees"
+speed gauss '"artifact_px": [10, 30], "patterns": [{"pattern": "line", "angle_deg": 10}], "kernels": ["gaussian"]' 30 "line, gaussian"
+speed taps '"artifact_px": [10, 30], "patterns": ["stair"], "kernels": ["poisson16"]' 30 "stair, 16 turned taps"
+speed noise '"artifact_px": [10, 30], "patterns": ["stair"], "noise_levels": [4], "dither": true' 30 "stair, image noise and dither"
 
 printf '\nmemory (resident, MB) over 2,000 trials at 240 px:\n'
 design memory 240 1000 '"artifact_px": [10], "patterns": ["stair", "step"], "catch_share": 0, "radius_px": {"max": 120}'

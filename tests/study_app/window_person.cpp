@@ -78,7 +78,8 @@ XServer::XServer(const std::string& screen) {
     const int quiet = ::open("/dev/null", O_WRONLY);
     // The server writes its number to standard output once it is ready.
     process_ =
-        spawn({.arguments = {"Xvfb", "-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp"},
+        spawn({.arguments = {"Xvfb", "-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp",
+                             "-noreset"},  // else it starts anew whenever a program has gone
                .out = ends[1],
                .error = quiet});
     ::close(ends[1]);

@@ -16,7 +16,7 @@
 #include "study_app/recorded_session.h"
 #include "study_app/robot_observer.h"
 #include "study_app/trial_stimulus.h"
-#include "tests/run_command.h"
+#include "tests/study_app/frame_folder.h"
 #include "tests/temporary_folder.h"
 
 namespace tests {
@@ -110,6 +110,34 @@ TEST_F(WindowSession, AClickSaysWhereTheStepsAre) {
     EXPECT_FALSE(recorded[2].clickXPx);
     EXPECT_FALSE(recorded[3].response);
     EXPECT_EQ(study_app::replayTable(table()).session.answered(), 3u);
+}
+
+TEST_F(WindowSession, ShowsRenderedFramesAndPractisesWithThePlainest) {
+    const std::vector<records::FramePair> pairs = writeFrameFolder(file("frames"), {0.5, 2, 4, 8});
+    const std::string design = write("frames.json", R"({
+        "schema": {"name": "stairwell design", "major": 1, "minor": 0}, "name": "frames",
+        "frames": "frames", "trials_per_condition": 4, "catch_share": 0})");
+    WindowPerson person(
+        server_, folder_.path(),
+        {"--design", design, "--data", data(), "--participant", "01", "--seed", "7", "--start",
+         "--presentation", write("pace.json", R"({"blank_s": 0.02, "fixation_s": 0.05,
+                             "too_fast_s": 0, "feedback_s": 0.02, "break_every_trials": 0,
+                             "practice": {"correct": 2, "of_last": 2}})")});
+    agree(person);
+    for (int i = 0; i < 2; ++i) {
+        const bool left = person.waitFor("practice").ends_with("left");
+        person.press(left ? "Left" : "Right");
+    }
+    person.waitFor("screen practice-over");
+    person.press("Return");
+    answerAll(person);  // every frame is read back from the screen
+    person.press("Return");
+    EXPECT_EQ(person.exitCode(), 0) << person.errors();
+    for (const Trial& row : rows()) {
+        EXPECT_TRUE(std::ranges::any_of(
+            pairs, [&](const records::FramePair& pair) { return pair.artifact == row.frame; }));
+    }
+    EXPECT_TRUE(study_app::replayTable(table()).session.finished());
 }
 
 TEST_F(WindowSession, BackspaceTakesTheLastAnswerBack) {
