@@ -147,6 +147,71 @@ std::vector<Trace> tracesOf(const SlopeAnalysis& analysis) {
     return traces;
 }
 
+// log10 of single thresholds over what the fit gives that observer there, by condition.
+std::vector<std::vector<double>> residualsOf(const SlopeAnalysis& analysis) {
+    const RandomObserverFit& fit = headlineFit(analysis);
+    std::vector<std::vector<double>> residuals(analysis.study.conditions.size());
+    for (const CellThreshold& cell : analysis.thresholds) {
+        if (cell.state != ThresholdState::estimated) continue;
+        const Condition& condition = analysis.study.conditions[cell.condition];
+        residuals[cell.condition].push_back(
+            cell.log10c - fittedLog10c(analysis, condition.group, condition.artifactPx) -
+            fit.observerEffects[cell.observer]);
+    }
+    return residuals;
+}
+
+// "mean low high" with the t interval over observers, as factors; empty for a single one.
+std::string meanRow(const std::vector<double>& values) {
+    if (values.size() < 2) return "";
+    const double count = static_cast<double>(values.size());
+    double mean = 0, squares = 0;
+    for (const double value : values) mean += value / count;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    const double half =
+        studentQuantile(0.975, count - 1) * std::sqrt(squares / (count - 1) / count);
+    std::ostringstream row;
+    row << c(mean) << ' ' << c(mean - half) << ' ' << c(mean + half) << '\n';
+    return row.str();
+}
+
+struct Drawing {
+    std::string data, plot;
+};
+
+// Of panel number `p`: points and means of each series, beside each other.
+Drawing residualDrawing(const SlopeAnalysis& analysis, const Panel& panel, std::size_t p,
+                        const std::vector<std::vector<double>>& residuals) {
+    const Study& study = analysis.study;
+    Drawing drawing;
+    for (std::size_t s = 0; s < panel.series.size(); ++s) {
+        const Series& series = panel.series[s];
+        const double place =
+            static_cast<double>(s) - 0.5 * (static_cast<double>(panel.series.size()) - 1);
+        std::ostringstream single, means;
+        for (std::size_t k = 0; k < study.conditions.size(); ++k) {
+            if (study.conditions[k].group != series.group) continue;
+            const double a = study.conditions[k].artifactPx * std::pow(1.06, place);
+            for (const double residual : residuals[k]) single << a << ' ' << c(residual) << '\n';
+            const std::string mean = meanRow(residuals[k]);
+            if (!mean.empty()) means << a * 1.02 << ' ' << mean;
+        }
+        if (single.str().empty()) continue;
+        const std::string key = std::to_string(p) + "_" + std::to_string(s);
+        const std::string colour = seriesColour(series.style);
+        drawing.data += dataBlock("single" + key, single.str());
+        drawing.plot += std::string(drawing.plot.empty() ? "" : ", \\\n     ") + "$single" + key +
+                        " using 1:2 with points pt 7 ps 0.35 lc rgb '#90" + colour.substr(1) +
+                        "' notitle";
+        if (means.str().empty()) continue;
+        drawing.data += dataBlock("mean" + key, means.str());
+        drawing.plot += ", \\\n     $mean" + key + " using 1:2:3:4 with yerrorbars pt " +
+                        seriesPoint(series.style) + " ps 0.8 lw 1.4 lc rgb '" + colour +
+                        "' title " + quotedForGnuplot(series.name);
+    }
+    return drawing;
+}
+
 }  // namespace
 
 Figure psychometricFunctions(const SlopeAnalysis& analysis) {
@@ -312,61 +377,12 @@ Figure staircaseTraces(const SlopeAnalysis& analysis) {
 }
 
 std::optional<Figure> residualsAgainstSize(const SlopeAnalysis& analysis) {
-    const Study& study = analysis.study;
-    const RandomObserverFit& fit = headlineFit(analysis);
     if (analysis.thresholds.size() < 4) return std::nullopt;
     const PanelChoice choice = choosePanels(analysis, true, 6, 7);
-    Extent y;
-    y.hold(-0.1);
-    y.hold(0.1);
-    std::vector<std::string> panelData, panelPlots;
-    for (std::size_t p = 0; p < choice.panels.size(); ++p) {
-        const Panel& panel = choice.panels[p];
-        std::string data, plot;
-        for (std::size_t s = 0; s < panel.series.size(); ++s) {
-            const double place =
-                static_cast<double>(s) - 0.5 * (static_cast<double>(panel.series.size()) - 1);
-            std::ostringstream single, means;
-            for (std::size_t k = 0; k < study.conditions.size(); ++k) {
-                if (study.conditions[k].group != panel.series[s].group) continue;
-                const double a = study.conditions[k].artifactPx * std::pow(1.06, place);
-                double sum = 0, squares = 0;
-                int count = 0;
-                for (const CellThreshold& cell : analysis.thresholds) {
-                    if (cell.condition != k || cell.state != ThresholdState::estimated) continue;
-                    const double residual = cell.log10c -
-                                            fittedLog10c(analysis, panel.series[s].group,
-                                                         study.conditions[k].artifactPx) -
-                                            fit.observerEffects[cell.observer];
-                    single << a << ' ' << c(residual) << '\n';
-                    sum += residual;
-                    squares += residual * residual;
-                    y.hold(residual);
-                    ++count;
-                }
-                if (count < 2) continue;
-                const double mean = sum / count;
-                const double sd =
-                    std::sqrt(std::max(0.0, squares / count - mean * mean) * count / (count - 1));
-                const double half = studentQuantile(0.975, count - 1) * sd / std::sqrt(count);
-                means << a * 1.02 << ' ' << c(mean) << ' ' << c(mean - half) << ' '
-                      << c(mean + half) << '\n';
-            }
-            const std::string key = std::to_string(p) + "_" + std::to_string(s);
-            const std::string colour = seriesColour(panel.series[s].style);
-            if (single.str().empty()) continue;
-            data += dataBlock("single" + key, single.str());
-            plot += std::string(plot.empty() ? "" : ", \\\n     ") + "$single" + key +
-                    " using 1:2 with points pt 7 ps 0.35 lc rgb '#90" + colour.substr(1) +
-                    "' notitle";
-            if (means.str().empty()) continue;
-            data += dataBlock("mean" + key, means.str());
-            plot += ", \\\n     $mean" + key + " using 1:2:3:4 with yerrorbars pt " +
-                    seriesPoint(panel.series[s].style) + " ps 0.8 lw 1.4 lc rgb '" + colour +
-                    "' title " + quotedForGnuplot(panel.series[s].name);
-        }
-        panelData.push_back(data);
-        panelPlots.push_back(plot);
+    const std::vector<std::vector<double>> residuals = residualsOf(analysis);
+    Extent y{-0.1, 0.1};
+    for (const std::vector<double>& values : residuals) {
+        for (const double value : values) y.hold(value);
     }
     std::size_t keyRows = 1;
     for (const Panel& panel : choice.panels) keyRows = std::max(keyRows, panel.series.size());
@@ -381,8 +397,9 @@ std::optional<Figure> residualsAgainstSize(const SlopeAnalysis& analysis) {
                          .bottom = 70 + 18.0 * static_cast<double>(keyRows)};
     std::string data, plots;
     for (std::size_t p = 0; p < choice.panels.size(); ++p) {
-        if (panelPlots[p].empty()) continue;
         const Panel& panel = choice.panels[p];
+        const Drawing drawing = residualDrawing(analysis, panel, p, residuals);
+        if (drawing.plot.empty()) continue;
         const double left = panel.sizes.front() / 1.5, right = panel.sizes.back() * 1.5;
         std::ostringstream axes;
         axes << smallAxes(grid, p, panel.title, "artifact size a (px)", "threshold over fit")
@@ -395,8 +412,8 @@ std::optional<Figure> residualsAgainstSize(const SlopeAnalysis& analysis) {
              << keyRows << " samplen 1.5 spacing 1.15 font ',11.5'\n"
              << "set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 1 lc rgb '" << kInk
              << "'\n";
-        data += panelData[p];
-        plots += axes.str() + "plot " + panelPlots[p] + "\n";
+        data += drawing.data;
+        plots += axes.str() + "plot " + drawing.plot + "\n";
     }
     return multiplot(
         "residuals",
