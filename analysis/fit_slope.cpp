@@ -28,6 +28,8 @@ struct Options {
     std::vector<std::string> paths;
     std::string out;
     double criterion = quest::kPaperCriterion;
+    std::vector<std::string> by;
+    int bootstrap = 0;
     bool noScreening = false, timing = false;
     // --coverage:
     std::string design, observer = "simulated";
@@ -72,13 +74,19 @@ void fit(const Options& options, std::vector<std::string> command) {
     records::RunContext context = records::currentRunContext("fit_slope", std::move(command));
     context.seed = analysis::kBootstrapSeed;
     const std::vector<std::filesystem::path> paths(options.paths.begin(), options.paths.end());
-    const analysis::Study study = analysis::loadStudy(paths);
+    const analysis::Study study = analysis::loadStudy(paths, options.by);
     records::createFolders(options.out);
     times.lap("reading");
 
     analysis::AnalysisOptions settings;
     settings.criterion = options.criterion;
     settings.screening.apply = !options.noScreening;
+    settings.bootstrap = options.bootstrap;
+    std::optional<program::Progress> draws;
+    if (options.bootstrap > 0) {
+        draws.emplace("draws of observers", static_cast<std::size_t>(options.bootstrap));
+        settings.bootstrapDone = [&draws] { draws->advance(); };
+    }
     // Needs no fit, and takes half as long: beside it.
     std::future<analysis::ReferenceSizes> referenceSizes =
         std::async(std::launch::async, [&study] { return analysis::referenceSizes(study); });
@@ -142,7 +150,8 @@ void addCoverageOptions(CLI::App& app, Options& o) {
         "--coverage", o.design,
         "Simulate studies of this design (file, or name of a shipped one) and print bias, scatter "
         "and interval coverage of every estimator, with Monte-Carlo errors");
-    for (const char* other : {"PATH", "--out", "--no-screening", "--timing"}) {
+    for (const char* other :
+         {"PATH", "--out", "--by", "--bootstrap", "--no-screening", "--timing"}) {
         coverage->excludes(app.get_option(other));
     }
     const auto add = [&](const char* name, auto& value, const char* text) {
@@ -175,6 +184,15 @@ int main(int argc, char** argv) {
     app.add_option("--criterion", options.criterion,
                    "F*: detection probability at r = c a, guesses and lapses taken out (default: "
                    "the published .6465)");
+    app.add_option("--by", options.by,
+                   "NAME[,NAME]: divide the groups further, by a column of the tables (kernel, "
+                   "noise, an extra one), of participants.tsv (expertise), by design or session; "
+                   "the headline is the worst group of all")
+        ->delimiter(',');
+    app.add_option("--bootstrap", options.bootstrap,
+                   "Refit this many draws of the observers, for intervals that assume no "
+                   "distribution (default: none)")
+        ->check(CLI::Range(20, 100000));
     app.add_flag("--no-screening", options.noScreening,
                  "Fit every observer, whatever the rules say");
     app.add_flag("--timing", options.timing, "Print where the time went");

@@ -224,7 +224,8 @@ RandomObserverFit fitRandomObservers(const Model& model, const ModelParameters& 
                                      const FitOptions& options) {
     MarginalLikelihood likelihood(model);
     RandomObserverFit fit;
-    fit.observers = static_cast<int>(model.observers.size());
+    // Without tau observers cannot be told from what the design tells apart: as one observer.
+    fit.observers = options.estimateTau ? static_cast<int>(model.observers.size()) : 1;
     fit.parameters = start;
     const Layout layout(model);
     const VectorXd scale = coordinateScale(layout);

@@ -24,7 +24,8 @@ namespace analysis {
 
 struct FitOptions {
     LikelihoodForm form = LikelihoodForm::restricted;
-    bool estimateTau = true;    ///< else it stays at its start value (0 with one observer)
+    bool estimateTau = true;    ///< else it stays at its start value (0 with one observer, or where
+                                ///< no two share a group), and there are no intervals of c
     bool estimateOmega = true;  ///< else likewise (0 where no observer has two conditions)
     bool estimateCurve = true;  ///< beta and lapse; else they stay
     bool covariance = true;     ///< off: estimates and log-likelihood alone, in half the time
@@ -45,7 +46,7 @@ struct RandomObserverFit {
     Eigen::MatrixXd covariance;
     Eigen::MatrixXd fixedInformation;  ///< J
     MarginalLikelihood::SpreadInformation spread;
-    int observers = 0;
+    int observers = 0;  ///< that the spread between observers rests on; 1 where it is not estimated
 
     std::vector<double> observerEffects;             ///< posterior means of u_i, log10
     std::vector<std::vector<double>> cellLocations;  ///< of y_ik, log10 c

@@ -40,13 +40,14 @@ std::optional<stimulus::SilhouetteOptions> silhouetteOf(const Group& group,
 }
 
 ReferenceSizes referenceSizes(const Study& study) {
-    const auto kernel = stimulus::kernelShapeFromText(study.kernel);
-    const auto encoding = study.encoding == records::Encoding::srgb ? stimulus::Encoding::srgb
-                                                                    : stimulus::Encoding::code;
     ReferenceSizes sizes;
     for (const Condition& condition : study.conditions) {
         const Group& group = study.groups[condition.group];
         if (group.pattern == records::Pattern::line) continue;  // seconds each: see the header
+        const auto kernel = stimulus::kernelShapeFromText(group.kernel);
+        const auto encoding = group.encoding == records::Encoding::srgb
+                                  ? stimulus::Encoding::srgb
+                                  : stimulus::Encoding::code;
         const auto silhouette = silhouetteOf(group, condition);
         if (!silhouette || !kernel) continue;
         const stimulus::ReferenceOptions options{.silhouette = *silhouette,

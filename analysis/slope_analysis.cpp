@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -175,6 +176,7 @@ void chooseHeadline(const Study& study, std::uint64_t seed, SlopeResult& result)
         result.worstArtifactPx = worst.artifactPx;
     }
     result.worstGroup = study.groups[group].name;
+    result.worstIndex = group;
     const std::vector<records::Pattern> patterns = betaPatterns(study);
     result.betaIndex = static_cast<std::size_t>(
         std::find(patterns.begin(), patterns.end(), study.groups[group].pattern) -
@@ -188,6 +190,12 @@ SlopeResult slopeOf(const Study& study, const AnalysisOptions& options,
     SlopeResult result;
     const MatrixXd perGroup = perGroupDesign(study);
     result.law = fitFresh(study, perGroup, options.criterion);
+    if (!result.law.converged) {
+        std::ostringstream why;
+        why << result.law;
+        throw std::runtime_error(study.files.front().parent_path().string() +
+                                 ": no slope can be fitted: " + why.str());
+    }
     noteConvergence(result.law, "fit of the law", notices);
     lap(times, "fit of the law");
     if (const auto design = sizeExponentDesign(study)) {
@@ -284,6 +292,49 @@ void includeEveryone(const Study& all, SlopeAnalysis& result) {
     }
 }
 
+// A level's mean over the groups that differ in nothing but the factor and have every level.
+std::vector<FactorTest::Level> levelsOf(const Study& study, const RandomObserverFit& law,
+                                        std::size_t factor,
+                                        const std::vector<std::size_t>& merged) {
+    std::map<std::string, VectorXd> weights;
+    const auto n = static_cast<Index>(study.groups.size());
+    for (const Group& group : study.groups) weights[group.levels[factor]] = VectorXd::Zero(n);
+    for (std::size_t g = 0; g < study.groups.size(); ++g) {
+        const auto alike = std::count(merged.begin(), merged.end(), merged[g]);
+        if (static_cast<std::size_t>(alike) != weights.size()) continue;
+        weights[study.groups[g].levels[factor]][static_cast<Index>(g)] = 1;
+    }
+    std::vector<FactorTest::Level> levels;
+    for (const auto& [name, weight] : weights) {
+        if (weight.sum() == 0) return {};
+        levels.push_back({name, linearEstimate(law, weight / weight.sum())});
+    }
+    return levels;
+}
+
+void testFactors(const Fitted& law, const RandomObserverFit& plain, SlopeAnalysis& result) {
+    const Study& study = result.study;
+    for (std::size_t f = 0; f < study.factors.size(); ++f) {
+        const std::vector<std::size_t> merged = groupsWithout(study, f);
+        const std::size_t count = *std::max_element(merged.begin(), merged.end()) + 1;
+        if (count == study.groups.size()) {
+            result.absent.push_back("test of " + study.factors[f] +
+                                    ": no pattern and light was shown at two of its levels");
+            continue;
+        }
+        const RandomObserverFit equal =
+            fitFrom(law, study, mergedDesign(study, merged), result.options.criterion, kForRatio);
+        if (!equal.converged || !plain.converged) {
+            noteConvergence(equal, "test of " + study.factors[f] + " left out", result.notices);
+            continue;
+        }
+        result.factorTests.push_back(
+            {study.factors[f],
+             ratioTest(equal, plain, static_cast<int>(study.groups.size() - count)),
+             levelsOf(study, law.fit, f, merged)});
+    }
+}
+
 void checkTheModel(SlopeAnalysis& result) {
     const Study& study = result.study;
     const double criterion = result.options.criterion;
@@ -317,6 +368,7 @@ void compare(const Study& all, std::optional<RandomObserverFit> plain, SlopeAnal
                 ratioTest(equal, *plain, static_cast<int>(study.groups.size()) - 1);
         }
     }
+    if (plain) testFactors(law, *plain, result);
     if (const auto design = contrastDesign(study)) {
         const RandomObserverFit contrast = fitFrom(law, study, *design, criterion);
         noteConvergence(contrast, "fit of the contrast exponent", result.notices);
@@ -353,7 +405,11 @@ void compare(const Study& all, std::optional<RandomObserverFit> plain, SlopeAnal
 
 void nameAbsences(SlopeAnalysis& result) {
     const RandomObserverFit& law = result.slope.law;
-    if (law.observers < 2) {
+    if (law.observers < 2 && result.study.observers.size() >= 2) {
+        result.absent.push_back(
+            "every interval of c: no two observers share a group, so that the spread between "
+            "observers cannot be told from that between groups");
+    } else if (law.observers < 2) {
         result.absent.push_back(
             "every interval of c: one observer says nothing about how observers differ");
     } else if (law.covariance.size() == 0) {

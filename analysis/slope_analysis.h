@@ -63,6 +63,17 @@ struct RatioTest {
     double pValue = 1;
 };
 
+/// Whether a factor of --by matters: one c for all its levels against one for each.
+struct FactorTest {
+    std::string factor;
+    RatioTest test;
+    struct Level {
+        std::string name;
+        LinearEstimate c;  ///< log10: mean over the groups that exist at every level
+    };
+    std::vector<Level> levels;  ///< empty where no group does
+};
+
 /// The slope of one set of observers: the fit, the test of the law, and the headline that follows.
 struct SlopeResult {
     RandomObserverFit law;                     ///< r = c a, a slope per group
@@ -72,6 +83,7 @@ struct SlopeResult {
     bool lawRejected = false;
     WorstGroup headline;
     std::string worstGroup;                 ///< its name
+    std::size_t worstIndex = 0;             ///< index into groups
     std::size_t betaIndex = 0;              ///< of its pattern, in betaPatterns(study)
     std::optional<double> worstArtifactPx;  ///< where the law was rejected: the size it belongs to
 };
@@ -94,6 +106,7 @@ struct SlopeAnalysis {
 
     // Comparisons:
     std::optional<RatioTest> equalGroupsTest;        ///< absent with one group
+    std::vector<FactorTest> factorTests;             ///< one per factor with two levels and a fit
     std::optional<LinearEstimate> contrastExponent;  ///< e; absent with one lit level
     std::optional<PooledFit> pooled;
     std::optional<ObserverMean> secondHalf;  ///< shift of log10 c; absent with a trial per cell

@@ -2,6 +2,7 @@
 #include "analysis/slope_model.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -129,16 +130,40 @@ MatrixXd oneSlopeDesign(const Study& study) {
     return MatrixXd::Ones(index(study.conditions.size()), 1);
 }
 
+std::vector<std::size_t> groupsWithout(const Study& study, std::size_t factor) {
+    std::vector<std::size_t> merged;
+    std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
+    for (const Group& group : study.groups) {
+        std::vector<std::string> others = group.levels;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(factor));
+        const std::pair kind(group.kind, others);
+        const auto same = std::find(kinds.begin(), kinds.end(), kind);
+        merged.push_back(static_cast<std::size_t>(same - kinds.begin()));
+        if (same == kinds.end()) kinds.push_back(kind);
+    }
+    return merged;
+}
+
+MatrixXd mergedDesign(const Study& study, const std::vector<std::size_t>& merged) {
+    const std::size_t count = *std::max_element(merged.begin(), merged.end()) + 1;
+    MatrixXd design = MatrixXd::Zero(index(study.conditions.size()), index(count));
+    for (std::size_t k = 0; k < study.conditions.size(); ++k) {
+        design(index(k), index(merged[study.conditions[k].group])) = 1;
+    }
+    return design;
+}
+
 MatrixXd perConditionDesign(const Study& study) {
     const Index n = index(study.conditions.size());
     return MatrixXd::Identity(n, n);
 }
 
 std::optional<MatrixXd> contrastDesign(const Study& study) {
-    std::map<std::pair<records::Pattern, double>, std::set<double>> levels;
+    using Kind = std::tuple<records::Pattern, double, std::vector<std::string>>;
+    std::map<Kind, std::set<double>> levels;
     const auto patternOf = [](const Group& group) {
         const bool line = group.pattern == records::Pattern::line;
-        return std::pair(group.pattern, line ? group.angleDeg.value_or(-1.0) : -1.0);
+        return Kind(group.pattern, line ? group.angleDeg.value_or(-1.0) : -1.0, group.levels);
     };
     for (const Group& group : study.groups) levels[patternOf(group)].insert(group.litLevel);
     const bool two = std::any_of(levels.begin(), levels.end(),
@@ -184,6 +209,41 @@ Model slopeModel(const Study& study, MatrixXd design, double criterion) {
     return model;
 }
 
+namespace {
+
+// Of the cells x columns matrix: the design alone, and with one more column for every observer.
+// Only what the latter adds tells observers from groups, and only cells beyond it tell omega.
+struct Ranks {
+    Index design, withObservers, cells;
+};
+
+Ranks ranksOf(const Model& model) {
+    const Index p = model.design.cols(), n = index(model.observers.size());
+    MatrixXd gram = MatrixXd::Zero(p + n, p + n);
+    Index cells = 0;
+    for (Index i = 0; i < n; ++i) {
+        for (const ModelCell& cell : model.observers[static_cast<std::size_t>(i)].cells) {
+            std::vector<std::pair<Index, double>> row = {{p + i, 1.0}};  // what is not 0: little
+            for (Index j = 0; j < p; ++j) {
+                const double value = model.design(cell.condition, j);
+                if (value != 0) row.emplace_back(j, value);
+            }
+            for (const auto& [a, valueA] : row) {
+                for (const auto& [b, valueB] : row) gram(a, b) += valueA * valueB;
+            }
+            ++cells;
+        }
+    }
+    const auto rank = [](const MatrixXd& of) {
+        Eigen::FullPivLU<MatrixXd> lu(of);
+        lu.setThreshold(1e-9);
+        return lu.rank();
+    };
+    return {rank(gram.topLeftCorner(p, p)), rank(gram), cells};
+}
+
+}  // namespace
+
 Start startOf(const Model& model, const Eigen::VectorXd& perCondition) {
     Start start;
     start.parameters.fixed = (model.design.transpose() * model.design)
@@ -191,11 +251,9 @@ Start startOf(const Model& model, const Eigen::VectorXd& perCondition) {
                                  .solve(model.design.transpose() * perCondition);
     start.parameters.beta.assign(static_cast<std::size_t>(model.betaCount), kStartBeta);
     start.parameters.lapse = kStartLapse;
-    std::size_t cells = 0;
-    for (const ModelObserver& observer : model.observers) cells += observer.cells.size();
-    const std::size_t observers = model.observers.size();
-    start.estimateTau = observers >= 2;
-    start.estimateOmega = cells + 1 > observers + static_cast<std::size_t>(model.design.cols());
+    const Ranks ranks = ranksOf(model);
+    start.estimateTau = ranks.withObservers > ranks.design;
+    start.estimateOmega = ranks.cells > ranks.withObservers;
     start.parameters.tau = start.estimateTau ? kStartTau : 0;
     start.parameters.omega = start.estimateOmega ? kStartOmega : 0;
     return start;

@@ -21,6 +21,10 @@ Eigen::MatrixXd perGroupDesign(const Study& study);
 std::optional<Eigen::MatrixXd> sizeExponentDesign(const Study& study);
 /// One log10 c for all groups.
 Eigen::MatrixXd oneSlopeDesign(const Study& study);
+/// For every group the index of what it is without that factor (Study::factors), counted from 0.
+std::vector<std::size_t> groupsWithout(const Study& study, std::size_t factor);
+/// log10 c per such index.
+Eigen::MatrixXd mergedDesign(const Study& study, const std::vector<std::size_t>& merged);
 /// log10 c per condition.
 Eigen::MatrixXd perConditionDesign(const Study& study);
 /// log10 c at full white per pattern (angle), and last the exponent e of c(C) = c C^e. Absent where

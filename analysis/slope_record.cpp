@@ -19,6 +19,7 @@ double betaOfWorst(const SlopeResult& slope) {
 records::Slope slopeRecord(const SlopeAnalysis& analysis, const records::RunContext& context) {
     const SlopeResult& slope = analysis.slope;
     const Study& study = analysis.study;
+    const Group& worst = study.groups[slope.worstIndex];
     records::Slope record{
         .c = slopeEstimate(slope.headline.value, slope.headline.ci95),
         .worstGroup = slope.worstGroup,
@@ -27,8 +28,8 @@ records::Slope slopeRecord(const SlopeAnalysis& analysis, const records::RunCont
         .criterion = analysis.options.criterion,
         .percentCorrect = analysis.percentAtThreshold,
         .task = study.task,
-        .kernel = study.kernel,
-        .encoding = study.encoding,
+        .kernel = worst.kernel,
+        .encoding = worst.encoding,
         .beta = betaOfWorst(slope),
         .observerSd = slope.law.parameters.tau,
         .observerConditionSd = slope.law.parameters.omega,

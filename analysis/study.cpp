@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "analysis/factors.h"
 #include "records/session_sidecar.h"
 
 namespace analysis {
@@ -20,6 +21,10 @@ using records::Task;
 using records::Trial;
 using records::TrialTable;
 using records::TrialType;
+
+bool isFactor(const std::vector<std::string>& factors, const std::string& name) {
+    return std::find(factors.begin(), factors.end(), name) != factors.end();
+}
 
 std::string numberText(double value) {
     std::ostringstream out;
@@ -38,37 +43,52 @@ struct GroupKey {
     Pattern pattern;
     double angle, negativeLit;  // of a line, else -1
     std::string frames;
+    std::vector<std::string> levels;  // of the factors asked for
     auto operator<=>(const GroupKey&) const = default;
 };
 using ConditionKey = std::pair<GroupKey, double>;
 
-ConditionKey keyOf(const Trial& trial) {
+ConditionKey keyOf(const Trial& trial, std::vector<std::string> levels) {
     if (trial.pattern == Pattern::frame)
-        return {{trial.pattern, -1.0, -trial.litLevel, trial.condition}, 0.0};
+        return {{trial.pattern, -1.0, -trial.litLevel, trial.condition, std::move(levels)}, 0.0};
     const double angle = trial.pattern == Pattern::line ? trial.angleDeg.value_or(-1.0) : -1.0;
-    return {{trial.pattern, angle, -trial.litLevel, ""}, trial.artifactPx};
+    return {{trial.pattern, angle, -trial.litLevel, "", std::move(levels)}, trial.artifactPx};
 }
 
-std::string groupName(const GroupKey& key) {
-    const auto& [pattern, angle, negativeLit, frames] = key;
+// Without the factors' levels.
+std::string kindName(const GroupKey& key) {
+    const auto& [pattern, angle, negativeLit, frames, levels] = key;
     std::string name(records::toText(pattern));
     if (!frames.empty()) name.append(" ").append(frames);
     if (angle >= 0) name.append(" ").append(numberText(angle)).append(" deg");
     return name.append(", lit ").append(numberText(-negativeLit));
 }
 
+std::string groupName(const GroupKey& key, const std::vector<std::string>& factors) {
+    std::string name = kindName(key);
+    for (std::size_t f = 0; f < factors.size(); ++f) {
+        name.append(", ").append(factors[f]).append(" ").append(key.levels[f]);
+    }
+    return name;
+}
+
 // What every trial of one fit must share.
 struct Shared {
     std::string property, value, where;
+    bool divided = false;  // by a factor asked for
 
     void require(const std::string& found, const std::string& place) {
+        if (divided) return;
         if (where.empty()) {
             value = found;
             where = place;
         } else if (found != value) {
             throw std::runtime_error(place + ": " + property + " " + found + ", but " + where +
                                      " has " + value + ": a slope stands for one " + property +
-                                     "; fit the tables apart");
+                                     (property == "task" ? "; fit the tables apart"
+                                                         : "; fit the tables apart, or divide "
+                                                           "the groups by it: --by " +
+                                                               property));
         }
     }
 };
@@ -99,6 +119,11 @@ struct Gathered {
     std::map<std::string, Person> people;
     std::map<ConditionKey, std::set<double>> angles;         // as its trials give them
     std::map<ConditionKey, std::vector<double>> frameSizes;  // artifact of every trial, px
+    struct Shown {
+        std::string kernel;
+        std::optional<records::Encoding> encoding;
+    };
+    std::map<GroupKey, Shown> shown;
     Shared task{"task", {}, {}}, kernel{"kernel", {}, {}}, encoding{"encoding", {}, {}};
 };
 
@@ -133,8 +158,11 @@ std::map<ConditionKey, double> settleFrameSizes(Gathered& gathered) {
     return sizes;
 }
 
-void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& notices) {
+void gather(const TrialTable& table, const std::vector<std::string>& factors, Gathered& into,
+            std::vector<std::string>& notices) {
     LeftOut leftOut;
+    const FactorReader reader(table, factors);
+    const bool noiseDivides = isFactor(factors, "noise_levels");
     const bool staircases =
         std::any_of(table.trials.begin(), table.trials.end(),
                     [](const Trial& trial) { return trial.staircase.has_value(); });
@@ -144,8 +172,8 @@ void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& n
             leftOut.add("status " + std::string(records::toText(trial.status)));
             continue;
         }
-        if (trial.noiseLevels.value_or(0) > 0) {
-            leftOut.add("image noise was added (noise_levels > 0)");
+        if (!noiseDivides && trial.noiseLevels.value_or(0) > 0) {
+            leftOut.add("image noise was added (noise_levels > 0; --by noise keeps them)");
             continue;
         }
         const std::string place = where(table, trial);
@@ -173,7 +201,8 @@ void gather(const TrialTable& table, Gathered& into, std::vector<std::string>& n
             ++person.catchTrials;
             person.catchFailures += yes ? 0 : 1;
         }
-        const ConditionKey key = keyOf(trial);
+        const ConditionKey key = keyOf(trial, reader.levels(trial));
+        into.shown[key.first] = {trial.kernel, trial.encoding};
         if (trial.pattern == Pattern::frame) into.frameSizes[key].push_back(trial.artifactPx);
         person.cells[key].push_back({.radiusPx = trial.filterRadiusPx / unitOf(trial),
                                      .proposedPx = proposedIn(unitOf(trial), trial),
@@ -209,8 +238,9 @@ std::optional<double> meanSlope(const std::map<std::string, double>& thresholds)
     return sum / static_cast<double>(thresholds.size());
 }
 
-Study indexed(Gathered&& gathered) {
+Study indexed(Gathered&& gathered, const std::vector<std::string>& factors) {
     Study study;
+    study.factors = factors;
     const std::map<ConditionKey, double> frameSizes = settleFrameSizes(gathered);
     std::map<ConditionKey, std::size_t> conditionIndex;
     for (const auto& [id, person] : gathered.people) {
@@ -224,10 +254,14 @@ Study indexed(Gathered&& gathered) {
     for (auto& [key, index] : conditionIndex) {  // sorted: groups come in one piece
         const auto [at, isNew] = groupIndex.insert({key.first, study.groups.size()});
         if (isNew) {
-            study.groups.push_back({.name = groupName(key.first),
+            study.groups.push_back({.name = groupName(key.first, factors),
                                     .pattern = key.first.pattern,
                                     .angleDeg = {},
-                                    .litLevel = -key.first.negativeLit});
+                                    .litLevel = -key.first.negativeLit,
+                                    .kind = kindName(key.first),
+                                    .levels = key.first.levels,
+                                    .kernel = gathered.shown[key.first].kernel,
+                                    .encoding = gathered.shown[key.first].encoding});
             groupAngles.emplace_back();
         }
         const std::set<double>& angles = gathered.angles[key];
@@ -263,20 +297,63 @@ Study indexed(Gathered&& gathered) {
     return study;
 }
 
+using Sidecars = std::vector<std::optional<records::SessionSidecar>>;
+
+Sidecars readSidecars(std::span<const TrialTable> tables) {
+    Sidecars sidecars;
+    for (const TrialTable& table : tables) {
+        const std::filesystem::path file = records::sidecarPath(table.file);
+        if (std::filesystem::exists(file)) {
+            sidecars.emplace_back(records::readSidecar(file));
+        } else {
+            sidecars.emplace_back();
+        }
+    }
+    return sidecars;
+}
+
+// The first field in which two normalised designs differ, with both values; "" for one design. The
+// description is words.
+std::string designDifference(const nlohmann::json& one, const nlohmann::json& other) {
+    for (const auto& [field, value] : one.items()) {
+        if (field == "description") continue;
+        const std::string there = other.contains(field) ? other.at(field).dump() : "nothing";
+        if (there != value.dump()) return field + " " + value.dump() + ", but %s has " + there;
+    }
+    for (const auto& [field, value] : other.items()) {
+        if (field != "description" && !one.contains(field)) {
+            return field + " nothing, but %s has " + value.dump();
+        }
+    }
+    return "";
+}
+
+void refuseMixedDesigns(std::span<const TrialTable> tables, const Sidecars& sidecars) {
+    std::optional<std::size_t> first;
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+        if (!sidecars[t]) continue;
+        if (!first) first = t;
+        std::string difference = designDifference(sidecars[t]->design, sidecars[*first]->design);
+        if (difference.empty()) continue;
+        difference.replace(difference.find("%s"), 2, tables[*first].file.string());
+        throw std::runtime_error(tables[t].file.string() + ": its design has " + difference +
+                                 ": a fit stands for one design; fit the tables apart, or divide "
+                                 "the groups by it: --by design");
+    }
+}
+
 // What the sidecars say, as far as every table has one.
-void addFromSidecars(Study& study) {
+void addFromSidecars(const Sidecars& sidecars, Study& study) {
     double sum = 0;
     bool everyGeometry = true;
     std::vector<StaircaseTerms> terms;
-    for (const std::filesystem::path& table : study.files) {
-        const std::filesystem::path file = records::sidecarPath(table);
-        if (!std::filesystem::exists(file)) return;
-        const records::SessionSidecar sidecar = records::readSidecar(file);
-        everyGeometry = everyGeometry && sidecar.pxPerDeg;
-        sum += sidecar.pxPerDeg.value_or(0);
-        terms.push_back({sidecar.criterion, sidecar.beta});
+    for (const auto& sidecar : sidecars) {
+        if (!sidecar) return;
+        everyGeometry = everyGeometry && sidecar->pxPerDeg;
+        sum += sidecar->pxPerDeg.value_or(0);
+        terms.push_back({sidecar->criterion, sidecar->beta});
     }
-    if (everyGeometry) study.pxPerDeg = sum / static_cast<double>(study.files.size());
+    if (everyGeometry) study.pxPerDeg = sum / static_cast<double>(sidecars.size());
     const bool equal = std::all_of(terms.begin(), terms.end(),
                                    [&](const StaircaseTerms& one) { return one == terms.front(); });
     if (equal) study.staircases = terms.front();
@@ -284,17 +361,19 @@ void addFromSidecars(Study& study) {
 
 }  // namespace
 
-Study studyOf(std::span<const TrialTable> tables) {
+Study studyOf(std::span<const TrialTable> tables, std::span<const std::string> by) {
     refuseTwice(tables);
+    const std::vector<std::string> factors = factorNames(by);
     Gathered gathered;
+    gathered.kernel.divided = isFactor(factors, "kernel");
+    gathered.encoding.divided = isFactor(factors, "encoding");
     std::vector<std::string> notices;
     for (const TrialTable& table : tables) {
         notices.insert(notices.end(), table.notices.begin(), table.notices.end());
-        gather(table, gathered, notices);
+        gather(table, factors, gathered, notices);
     }
-    const std::string task = gathered.task.value, encoding = gathered.encoding.value;
-    const std::string kernel = gathered.kernel.value;
-    Study study = indexed(std::move(gathered));
+    const std::string task = gathered.task.value;
+    Study study = indexed(std::move(gathered), factors);
     study.notices.insert(study.notices.begin(), notices.begin(), notices.end());
     if (study.observers.empty()) {
         const std::string first = tables.empty() ? "" : tables.front().file.string() + ": ";
@@ -304,13 +383,20 @@ Study studyOf(std::span<const TrialTable> tables) {
                                  "ok is needed");
     }
     study.task = *records::taskFromText(task);
-    study.kernel = kernel;
-    study.encoding = records::encodingFromText(encoding);
+    for (const Group& group : study.groups) {
+        if (study.kernel.find(group.kernel) == std::string::npos) {
+            study.kernel += (study.kernel.empty() ? "" : ", ") + group.kernel;
+        }
+    }
+    study.encoding = study.groups.front().encoding;
+    for (const Group& group : study.groups) {
+        if (group.encoding != study.encoding) study.encoding.reset();
+    }
     for (const TrialTable& table : tables) study.files.push_back(table.file);
     return study;
 }
 
-Study loadStudy(std::span<const std::filesystem::path> paths) {
+Study loadStudy(std::span<const std::filesystem::path> paths, std::span<const std::string> by) {
     std::map<std::filesystem::path, std::filesystem::path> files;  // canonical, as given
     for (const std::filesystem::path& path : paths) {
         const auto found = records::findTrialTables(path);
@@ -320,8 +406,12 @@ Study loadStudy(std::span<const std::filesystem::path> paths) {
     }
     std::vector<TrialTable> tables;
     for (const auto& [canonical, file] : files) tables.push_back(records::readTrialTable(file));
-    Study study = studyOf(tables);
-    addFromSidecars(study);
+    const std::vector<std::string> factors = factorNames(by);
+    const Sidecars sidecars = readSidecars(tables);
+    if (!isFactor(factors, "design")) refuseMixedDesigns(tables, sidecars);
+    addFactorColumns(tables, sidecars, factors);
+    Study study = studyOf(tables, factors);
+    addFromSidecars(sidecars, study);
     return study;
 }
 

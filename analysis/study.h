@@ -26,6 +26,10 @@ struct Group {
     records::Pattern pattern = records::Pattern::stair;
     std::optional<double> angleDeg;  ///< where all its trials have the same one, as lines do
     double litLevel = 1;
+    std::string kind = {};                 ///< the name without the levels
+    std::vector<std::string> levels = {};  ///< of Study::factors: "box", "expert"
+    std::string kernel = {};
+    std::optional<records::Encoding> encoding = {};  ///< absent where no table says it
 };
 
 struct Condition {
@@ -68,23 +72,25 @@ struct Study {
     std::vector<Group> groups;          ///< by pattern, angle, falling lit level
     std::vector<Condition> conditions;  ///< by group, artifact size
     std::vector<Observer> observers;    ///< by id
+    std::vector<std::string> factors;   ///< by which groups are divided beyond pattern and light
     records::Task task = records::Task::twoAfc;
-    std::string kernel;
-    std::optional<records::Encoding> encoding;  ///< absent where no table says it
+    std::string kernel;  ///< of all groups; "box, disc" where they are divided by it
+    std::optional<records::Encoding> encoding;  ///< absent where no table says it or groups differ
     std::optional<double> pxPerDeg;             ///< mean over sessions, where every sidecar has it
     std::optional<StaircaseTerms> staircases;   ///< where every sidecar says the same
     std::vector<std::filesystem::path> files;
     std::vector<std::string> notices;  ///< what was left out, and why
 };
 
-/// Every table named, or found below a folder named. Sessions of one participant are joined. Throws
-/// std::runtime_error, located: no table, a malformed table (records/trial_table.h), two tables of
-/// one session, tables that differ in task, kernel or encoding (one slope stands for one of each),
-/// nothing left to fit.
-Study loadStudy(std::span<const std::filesystem::path> paths);
+/// Every table named, or found below a folder named. Sessions of one participant are joined. `by`
+/// names further factors that divide the groups (factors.h). Throws std::runtime_error, located: no
+/// table, a malformed table (records/trial_table.h), two tables of one session, tables that differ
+/// in task, or in kernel, encoding or (as their sidecars say) design without being divided by it,
+/// nothing left to fit; std::invalid_argument for a factor that cannot be.
+Study loadStudy(std::span<const std::filesystem::path> paths, std::span<const std::string> by = {});
 
-/// The same of tables already read; sidecars are not looked for.
-Study studyOf(std::span<const records::TrialTable> tables);
+/// The same of tables already read, in which factors are columns; sidecars are not looked for.
+Study studyOf(std::span<const records::TrialTable> tables, std::span<const std::string> by = {});
 
 /// P(yes) without detection: .5 in 2AFC; yes/no: the false-alarm rate, shrunk ((FA + .5)/(n + 1)).
 double guessingRate(const Observer& observer, records::Task task);

@@ -92,6 +92,25 @@ std::optional<ParticipantDetails> readParticipant(const fs::path& dataFolder,
                               .expertise = text("expertise")};
 }
 
+std::optional<std::string> participantCell(const fs::path& dataFolder,
+                                           const std::string& participant,
+                                           const std::string& column) {
+    const fs::path file = dataFolder / "participants.tsv";
+    if (!fs::exists(file)) return {};
+    std::vector<Row> rows = readRows(file);
+    Row* row = rowOf(rows, "sub-" + participant);
+    const std::string* found = row == nullptr ? nullptr : cell(rows, *row, column);
+    return found == nullptr ? std::nullopt : std::optional(*found);
+}
+
+std::vector<std::string> participantColumns(const fs::path& dataFolder) {
+    const fs::path file = dataFolder / "participants.tsv";
+    if (!fs::exists(file)) return {};
+    Row head = readRows(file).front();
+    head.erase(head.begin());
+    return head;
+}
+
 void writeParticipant(const fs::path& dataFolder, const std::string& participant,
                       const ParticipantDetails& details) {
     require("gender", details.gender);

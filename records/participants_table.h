@@ -30,4 +30,12 @@ std::optional<ParticipantDetails> readParticipant(const std::filesystem::path& d
 void writeParticipant(const std::filesystem::path& dataFolder, const std::string& participant,
                       const ParticipantDetails& details);
 
+/// The cell of any column in the participant's row. Nothing where table, row or column is missing;
+/// throws like readParticipant.
+std::optional<std::string> participantCell(const std::filesystem::path& dataFolder,
+                                           const std::string& participant,
+                                           const std::string& column);
+/// Names of the columns beyond the id; none where the table is missing. Throws likewise.
+std::vector<std::string> participantColumns(const std::filesystem::path& dataFolder);
+
 }  // namespace records
