@@ -99,6 +99,18 @@ std::string groupFinding(const SlopeAnalysis& analysis) {
            ", is safe for all of them; where only the easier ones occur, their own c is enough.";
 }
 
+std::string factorFinding(const FactorTest& factor) {
+    std::string text = "That c is the same at every level: " + ratioText(factor.test) + ". ";
+    for (std::size_t i = 0; i < factor.levels.size(); ++i) {
+        text += (i == 0 ? "Over the groups shown at every level c is " : ", ") +
+                slopeText(factor.levels[i].c) + " at " + factor.levels[i].name;
+    }
+    if (!factor.levels.empty()) text += ". ";
+    return text + (factor.test.pValue < kLevel
+                       ? "They differ: take the c of the level that you have."
+                       : "They do not differ demonstrably.");
+}
+
 std::string observerFinding(const SlopeAnalysis& analysis) {
     const RandomObserverFit& law = analysis.slope.law;
     if (law.observers < 2) return "";
@@ -267,7 +279,11 @@ std::string modelText(const SlopeAnalysis& analysis) {
 
 std::string intervalText(const SlopeAnalysis& analysis) {
     const RandomObserverFit& law = analysis.slope.law;
-    if (law.observers < 2) return "No interval: one observer. ";
+    if (law.observers < 2) {
+        return analysis.study.observers.size() < 2
+                   ? "No interval: one observer. "
+                   : "No interval: no two observers share a group. ";
+    }
     if (!analysis.slope.headline.ci95) return "No interval: " + law.message + ". ";
     std::string text =
         "Intervals: 95 %, Student's t with Satterthwaite's degrees of freedom on the Hessian of "
@@ -318,6 +334,9 @@ std::vector<Finding> findings(const SlopeAnalysis& analysis) {
         {"Staircases", staircaseFinding(analysis)}, {"Bootstrap", bootstrapFinding(analysis)},
         {"Screening", screeningFinding(analysis)}};
     std::erase_if(found, [](const Finding& finding) { return finding.text.empty(); });
+    for (const FactorTest& factor : analysis.factorTests) {
+        found.push_back({"Factor " + factor.factor, factorFinding(factor)});
+    }
     for (const std::string& absent : analysis.absent) {
         found.push_back({"Not available", absent + "."});
     }
@@ -331,7 +350,7 @@ std::vector<std::string> warnings(const SlopeAnalysis& analysis) {
         sentences.push_back("The fit did not converge (" + law.message +
                             "): its numbers are where it stopped.");
     }
-    if (law.observers == 1) {
+    if (analysis.study.observers.size() == 1) {
         sentences.push_back(
             "One observer: c is this person's. No interval can be given for people in general.");
     }
@@ -357,6 +376,16 @@ std::vector<std::string> warnings(const SlopeAnalysis& analysis) {
     return sentences;
 }
 
+namespace {
+
+std::string factorsText(const Study& study) {
+    std::string text;
+    for (const std::string& factor : study.factors) text += " x " + factor;
+    return text;
+}
+
+}  // namespace
+
 std::string methodParagraph(const SlopeAnalysis& analysis) {
     const Study& study = analysis.study;
     const SlopeResult& slope = analysis.slope;
@@ -364,7 +393,7 @@ std::string methodParagraph(const SlopeAnalysis& analysis) {
                        countText(trialCount(study), "trial") + " in " +
                        countText(static_cast<int>(study.conditions.size()), "condition") + " of " +
                        countText(static_cast<int>(study.groups.size()), "group") +
-                       " (pattern or angle x lit level). ";
+                       " (pattern or angle x lit level" + factorsText(study) + "). ";
     text += modelText(analysis) + intervalText(analysis);
     if (slope.kappaTest) {
         const std::string p = pValueText(slope.kappaTest->pValue);

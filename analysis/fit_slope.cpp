@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // fit_slope: from trial tables to the slope c of r = c a, and --coverage: what a study of a given
 // design would find.
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -105,6 +107,9 @@ void fit(const Options& options, std::vector<std::string> command) {
         total += seconds;
     }
     std::printf("%8.3f s  in all, %d trials\n", total, analysis::trialCount(result.study));
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);  // Linux: in kB
+    std::printf("%8.0f MB  peak memory\n", static_cast<double>(usage.ru_maxrss) / 1e3);
 }
 
 // Answers before anybody sits down: how wide an interval a design would give, and whether it
@@ -195,7 +200,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(20, 100000));
     app.add_flag("--no-screening", options.noScreening,
                  "Fit every observer, whatever the rules say");
-    app.add_flag("--timing", options.timing, "Print where the time went");
+    app.add_flag("--timing", options.timing, "Print where the time went, and the peak memory");
     addCoverageOptions(app, options);
     std::vector<std::string> command(argv, argv + argc);
     return program::run(app, argc, argv, [&] { run(app, options, command); });

@@ -32,5 +32,25 @@ head -n 1 "$work/fit.txt"
 section "reference_filter --all, R1/2 and R1 (seconds)"
 ( TIMEFORMAT='%R'; time "$bin/reference_filter" --all >"$work/reference.tsv" ) 2>&1
 
-section "coverage of the 95 % intervals over 500 small simulated studies"
-"$bin/fit_coverage" --studies 500 || die "fit_coverage failed"
+section "fit_slope on 64,000 trials: where the time goes, peak memory"
+"$bin/study_app" --headless --design paper16 --data "$work/large" --observers 100 \
+    --observer simulated --seed 4 >/dev/null || die "study_app failed"
+"$bin/fit_slope" "$work/large" --out "$work/fit" --timing 2>/dev/null | grep -E '^ .* (s|MB)  ' ||
+    die "fit_slope failed"
+
+section "the same on the 6,400 trials, with 1,000 draws of the observers"
+"$bin/fit_slope" "$work/study-1" --out "$work/fit" --timing --bootstrap 1000 2>/dev/null |
+    grep -E '^ .* (s|MB)  ' || die "fit_slope failed"
+
+# docs/results/coverage.txt holds these, some minutes each.
+coverage() {
+    section "coverage: $*"
+    "$bin/fit_slope" --coverage "$@" || die "fit_slope failed"
+}
+coverage paper16 --studies 500 --observer observer_sd=.10,condition_sd=.05,stair=1,contrast_exponent=0
+coverage paper16 --studies 500
+coverage paper16 --studies 500 --observer beta=2,lapse=.04
+coverage paper16 --studies 500 --observers 20 --trials 20
+coverage paper16 --studies 500 --observers 5 --trials 80
+coverage paper16 --studies 500 --observer observer_sd=0,condition_sd=0
+coverage "$root/docs/results/paper16-with-catch-trials.json" --studies 200 --guessing 1
