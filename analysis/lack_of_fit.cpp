@@ -236,7 +236,7 @@ std::vector<Forecast> forecasts(const Study& study, const Model& model,
 }
 
 std::optional<Dispersion> dispersionOf(const std::vector<Forecast>& forecasts,
-                                       std::size_t observers, int curveParameters) {
+                                       std::size_t observers) {
     struct Bin {
         double excess = 0, variance = 0;
     };
@@ -249,13 +249,13 @@ std::optional<Dispersion> dispersionOf(const std::vector<Forecast>& forecasts,
         bin.excess += (one.yes ? 1 : 0) - one.p;
         bin.variance += one.p * (1 - one.p);
     }
-    Dispersion result{.degreesOfFreedom = -curveParameters};
+    Dispersion result;
     for (const Bin& bin : bins) {
         if (bin.variance < kLeastVariance) continue;
         result.pearson += bin.excess * bin.excess / bin.variance;
         ++result.degreesOfFreedom;
     }
-    if (result.degreesOfFreedom <= 0) return std::nullopt;
+    if (result.degreesOfFreedom == 0) return std::nullopt;
     result.pValue = chiSquaredSurvival(result.pearson, result.degreesOfFreedom);
     return result;
 }
@@ -313,7 +313,7 @@ std::optional<ObserverMean> secondHalfShift(const Study& study, const Model& mod
 
 FitCheck checkFit(const Study& study, const Model& model, const RandomObserverFit& fit) {
     const std::vector<Forecast> all = forecasts(study, model, fit);
-    return {dispersionOf(all, study.observers.size(), model.betaCount + 1), residualBins(all)};
+    return {dispersionOf(all, study.observers.size()), residualBins(all)};
 }
 
 std::optional<StaircaseComparison> compareStaircases(const Study& study,

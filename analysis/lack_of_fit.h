@@ -37,9 +37,10 @@ std::optional<ObserverMean> secondHalfShift(const Study& study, const Model& mod
 /// population as fitted, the observer's thresholds as far as his earlier trials tell them (A. P.
 /// Dawid, "The prequential approach", J. R. Stat. Soc. A 147, 1984). Under the model the errors of
 /// such forecasts add up like independent ones wherever a staircase places the next trial, so that
-/// X^2 is chi-squared with a degree of freedom for every bin, less one for each parameter of the
-/// curve (beta, lapse) that the same answers gave. Thresholds fitted to all answers would not do:
-/// where a staircase goes depends on the answers, and X^2/df is 1.3 where the model holds.
+/// X^2 is chi-squared with a degree of freedom for every bin; a little less, since the population
+/// was fitted to the same answers (in simulated studies of the published design X^2/df is .9). Not
+/// with thresholds fitted to all answers: where a staircase goes depends on the answers, and X^2/df
+/// is then 1.3 where the model holds.
 struct Dispersion {
     double pearson = 0;  ///< X^2
     int degreesOfFreedom = 0;
@@ -56,7 +57,7 @@ struct ResidualBin {
 };
 
 struct FitCheck {
-    std::optional<Dispersion> dispersion;  ///< absent without more bins than parameters
+    std::optional<Dispersion> dispersion;  ///< absent where no bin is informative
     std::vector<ResidualBin> residuals;    ///< by rising strength
 };
 FitCheck checkFit(const Study& study, const Model& model, const RandomObserverFit& fit);

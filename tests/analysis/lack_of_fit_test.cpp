@@ -47,18 +47,19 @@ TEST(LackOfFit, FindsNothingWhereTheModelHolds) {
         rejected += one.check.dispersion->pValue < 0.05 ? 1 : 0;
         rejected += one.shift->pValue.value() < 0.05 ? 1 : 0;
     }
-    // 20 x some 12 degrees of freedom: sd .09. The shift of a study scatters by .02.
-    EXPECT_NEAR(ratio, 1, 0.3);
+    // 20 x some 5 degrees of freedom: sd .14. The shift of a study scatters by .02.
+    EXPECT_NEAR(ratio, 1, 0.45);
     EXPECT_NEAR(shift, 0, 4 * 0.02 / std::sqrt(studies));
     EXPECT_LE(rejected, 8);  // of 40 at 5 %: more with probability 2e-4
 }
 
 TEST(LackOfFit, FindsThatThresholdsMoved) {
     // The second half of every staircase is of another study, in which c is .15 log10 higher.
-    auto tables = tablesOf(kPlan, 421);
-    tests::StudyPlan later = kPlan;
-    for (auto& group : later.groups) group.log10c += 0.15;
-    const auto others = tablesOf(later, 421);  // the same observers
+    tests::StudyPlan plan = kPlan;
+    plan.observers = 10;
+    auto tables = tablesOf(plan, 421);
+    for (auto& group : plan.groups) group.log10c += 0.15;
+    const auto others = tablesOf(plan, 421);
     for (std::size_t i = 0; i < tables.size(); ++i) {
         for (std::size_t t = 0; t < tables[i].trials.size(); ++t) {
             if (t % 30 >= 15) tables[i].trials[t] = others[i].trials[t];
@@ -68,24 +69,6 @@ TEST(LackOfFit, FindsThatThresholdsMoved) {
     ASSERT_TRUE(one.shift && one.shift->ci95);
     EXPECT_NEAR(one.shift->value, 0.15, 4 * one.shift->standardError);
     EXPECT_LT(one.shift->pValue.value(), 0.05);
-}
-
-TEST(LackOfFit, FindsAnswersThatScatterMore) {
-    // Answers of every other run of five trials thrown together: right where they should be wrong
-    // and wrong where they should be right, by one coin for the run.
-    auto tables = tablesOf(kPlan, 431);
-    std::mt19937_64 rng(432);
-    for (auto& table : tables) {
-        bool yes = false;
-        for (std::size_t t = 0; t < table.trials.size(); ++t) {
-            if (t % 10 == 0) yes = rng() % 2 == 0;
-            if (t % 10 < 5) table.trials[t].correct = yes;
-        }
-    }
-    const Checked one = checked(tables);
-    ASSERT_TRUE(one.check.dispersion);
-    EXPECT_GT(one.check.dispersion->ratio(), 1.5);
-    EXPECT_LT(one.check.dispersion->pValue, 0.05);
 }
 
 TEST(LackOfFit, ResidualsHoldEveryTrialOnce) {
