@@ -176,14 +176,14 @@ void compareGuessing(const CoveragePlan& plan, std::uint64_t seed, const SlopeAn
                      const std::vector<records::TrialTable>& tables, StudyOutcome& outcome) {
     const double attentive =
         analysed(simulatedTables(plan, seed, 0), plan, true).slope.headline.value;
-    outcome.screenedShift = screened.slope.headline.value - attentive;
-    outcome.unscreenedShift = analysed(tables, plan, false).slope.headline.value - attentive;
     const int attentives = plan.observers - plan.guessing;
     for (std::size_t i = 0; i < screened.screening.size(); ++i) {
         int& count =
             static_cast<int>(i) < attentives ? outcome.attentiveExcluded : outcome.guessersExcluded;
         count += screened.screening[i].excluded ? 1 : 0;
     }
+    outcome.screenedShift = screened.slope.headline.value - attentive;
+    outcome.unscreenedShift = analysed(tables, plan, false).slope.headline.value - attentive;
 }
 
 StudyOutcome fitOne(const CoveragePlan& plan, const Truth& truth, std::uint64_t seed) {

@@ -183,6 +183,21 @@ void chooseHeadline(const Study& study, std::uint64_t seed, SlopeResult& result)
         patterns.begin());
 }
 
+// A search that did not end may stand anywhere: not further than a factor of 10 from what the
+// pooled answers say, or there is no slope.
+void refuseStrayFit(const Study& study, double criterion, const RandomObserverFit& law) {
+    if (law.converged) return;
+    const std::vector<GroupCheck> checks = checkGroups(study, criterion);
+    for (std::size_t g = 0; g < checks.size(); ++g) {
+        const double off = law.parameters.fixed[static_cast<Index>(g)] - checks[g].log10c;
+        if (std::abs(off) < 1) continue;  // NaN is not
+        std::ostringstream why;
+        why << law;
+        throw std::runtime_error(study.files.front().parent_path().string() +
+                                 ": no slope can be fitted: " + why.str());
+    }
+}
+
 // `plain` is filled where the test of the law needed it.
 SlopeResult slopeOf(const Study& study, const AnalysisOptions& options,
                     std::vector<std::string>& notices, std::optional<RandomObserverFit>& plain,
@@ -190,12 +205,7 @@ SlopeResult slopeOf(const Study& study, const AnalysisOptions& options,
     SlopeResult result;
     const MatrixXd perGroup = perGroupDesign(study);
     result.law = fitFresh(study, perGroup, options.criterion);
-    if (!result.law.converged) {
-        std::ostringstream why;
-        why << result.law;
-        throw std::runtime_error(study.files.front().parent_path().string() +
-                                 ": no slope can be fitted: " + why.str());
-    }
+    refuseStrayFit(study, options.criterion, result.law);
     noteConvergence(result.law, "fit of the law", notices);
     lap(times, "fit of the law");
     if (const auto design = sizeExponentDesign(study)) {
