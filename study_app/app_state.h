@@ -28,6 +28,8 @@ struct SetupState {
     std::vector<std::string> summary;
     std::vector<std::string> participants;
     std::string problem;  ///< why a session cannot start
+    /// What participants.tsv says of this participant and was put into the form, like the form's.
+    std::string filledAge, filledGender, filledExpertise;
 };
 
 struct CalibrationState {

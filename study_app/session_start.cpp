@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "study_app/session_start.h"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 
 #include "records/participants_table.h"
+#include "records/quoted_text.h"
 #include "study_app/display_file.h"
 
 namespace study_app {
@@ -24,13 +28,63 @@ records::ParticipantDetails detailsFrom(const SetupForm& form) {
     return details;
 }
 
-/// What participants.tsv says of somebody who was here before.
-void fillInDetails(SetupForm& form) {
-    const auto known = records::readParticipant(form.dataFolder, form.participant);
-    if (!known) return;
-    if (known->age) form.age = std::to_string(std::lround(*known->age));
-    form.gender = known->gender;
-    form.expertise = known->expertise;
+/// A field of the set-up screen beside the cell of participants.tsv that it belongs to.
+struct Detail {
+    const char* column;
+    std::string& typed;
+    std::string& filledIn;
+    std::string known;  // empty: n/a, or nobody of that name
+};
+
+std::array<Detail, 3> detailsOf(SetupState& setup) {
+    SetupForm& form = setup.form;
+    records::ParticipantDetails known;
+    if (!form.participant.empty()) {
+        known = records::readParticipant(form.dataFolder, form.participant).value_or(known);
+    }
+    return {Detail{"age", form.age, setup.filledAge,
+                   known.age ? records::exactText(*known.age) : std::string()},
+            Detail{"gender", form.gender, setup.filledGender, known.gender},
+            Detail{"expertise", form.expertise, setup.filledExpertise, known.expertise}};
+}
+
+/// What the table says of somebody who was here before; what was typed stays.
+void fillIn(Detail& detail) {
+    if (detail.typed == detail.filledIn) detail.typed.clear();
+    detail.filledIn.clear();
+    if (!detail.typed.empty() || detail.known.empty()) return;
+    detail.typed = detail.filledIn = detail.known;
+}
+
+/// As participants.tsv would hold it: "31.0" is "31".
+std::string plainNumber(const std::string& text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end ? records::exactText(number) : text;
+}
+
+/// Whoever changes what was filled in has seen it, and corrects it.
+void requireNoContradiction(const Detail& detail, const SetupForm& form) {
+    if (detail.typed.empty() || detail.known.empty() || detail.filledIn == detail.known) return;
+    if (detail.typed == detail.known || plainNumber(detail.typed) == detail.known) return;
+    throw std::runtime_error(
+        (std::filesystem::path(form.dataFolder) / "participants.tsv").string() + ": sub-" +
+        form.participant + ": " + detail.column + " is " + records::quotedText(detail.known) +
+        " there and " + records::quotedText(detail.typed) +
+        " here: leave it out, or choose another participant");
+}
+
+/// What the form leaves empty stays as it is in the table.
+void storeDetails(const SetupForm& form) {
+    const records::ParticipantDetails known =
+        records::readParticipant(form.dataFolder, form.participant)
+            .value_or(records::ParticipantDetails{});
+    records::ParticipantDetails details = detailsFrom(form);
+    if (!details.age) details.age = known.age;
+    if (details.gender.empty()) details.gender = known.gender;
+    if (details.expertise.empty()) details.expertise = known.expertise;
+    if (details != known) records::writeParticipant(form.dataFolder, form.participant, details);
 }
 
 }  // namespace
@@ -44,9 +98,11 @@ void lookUp(SetupState& setup) {
     setup.problem = setup.existing.problem;
     try {
         if (newFolder) setup.participants = describeParticipants(setup.form.dataFolder);
-        if (newPerson && !setup.form.participant.empty()) fillInDetails(setup.form);
         setup.design = setup.existing.design ? *setup.existing.design : designOf(setup.form);
         setup.summary = describeDesign(*setup.design);
+        auto details = detailsOf(setup);
+        if (newPerson) std::ranges::for_each(details, fillIn);
+        for (const Detail& detail : details) requireNoContradiction(detail, setup.form);
     } catch (const std::exception& error) {
         setup.problem = error.what();
     }
@@ -97,11 +153,8 @@ std::unique_ptr<SessionRunner> startSession(const AppState& state,
     const SetupForm& form = state.setup.form;
     const SessionRequest request =
         requestFrom(form, findExisting(form), state.calibration.profile, freshSeed(), context);
-    const records::ParticipantDetails details = detailsFrom(form);
     auto runner = std::make_unique<SessionRunner>(request);
-    if (details != records::ParticipantDetails{}) {
-        records::writeParticipant(form.dataFolder, form.participant, details);
-    }
+    storeDetails(form);
     return runner;
 }
 
