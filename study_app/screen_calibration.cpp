@@ -11,7 +11,7 @@
 namespace study_app {
 namespace {
 
-constexpr float kLeastCardPx = 80;
+constexpr float kLeastCardPx = 80, kMoreWidthPx = 350;
 
 template <typename... Values>
 std::string formatted(const char* format, Values... values) {
@@ -20,9 +20,14 @@ std::string formatted(const char* format, Values... values) {
     return text;
 }
 
+void match(CalibrationState& c, double widthPx, const Page& page, float widest) {
+    const double least = page.px(kLeastCardPx);
+    c.cardWidthPx = std::round(std::clamp(widthPx, least, std::max<double>(least, widest)));
+    c.cardMatched = true;
+}
+
 /// The card's outline, as wide as it was matched. Its right edge follows the mouse.
-void drawCard(CalibrationState& c, const Page& page) {
-    const float widest = ImGui::GetContentRegionAvail().x - page.px(12);
+void drawCard(CalibrationState& c, const Page& page, float widest) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const auto width = static_cast<float>(std::lround(c.cardWidthPx));
     const auto height =
@@ -48,24 +53,19 @@ void drawCard(CalibrationState& c, const Page& page) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     }
     if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0) {
-        c.cardWidthPx = std::round(
-            std::clamp(ImGui::GetIO().MousePos.x - corner.x, page.px(kLeastCardPx), widest));
-        c.cardMatched = true;
+        match(c, ImGui::GetIO().MousePos.x - corner.x, page, widest);
     }
     ImGui::SetCursorScreenPos({at.x, at.y + height + page.px(10)});
 }
 
-void drawCardColumn(CalibrationState& c, const Page& page) {
+void drawCardColumn(CalibrationState& c, const Page& page, float widest) {
     ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Size of a pixel");
     faint(page,
           "Hold a bank card against the screen and drag the right edge until the sizes agree.");
     ImGui::Dummy({0, page.px(4)});
-    drawCard(c, page);
+    drawCard(c, page, widest);
     const auto nudge = [&](const char* text, double by) {
-        if (ImGui::Button(text)) {
-            c.cardWidthPx += by;
-            c.cardMatched = true;
-        }
+        if (ImGui::Button(text)) match(c, c.cardWidthPx + by, page, widest);
         ImGui::SameLine();
     };
     nudge("−1 px", -1);
@@ -145,7 +145,7 @@ void drawAngles(const AppState& state, const Page& page) {
 }  // namespace
 
 std::optional<Request> drawCalibration(AppState& state, const Page& page) {
-    beginPage(page, "Display", 1080);
+    beginPage(page, "Display", 1400);
     CalibrationState& c = state.calibration;
     faint(page, c.profile.name + ", " + std::to_string(c.profile.widthPx) + " x " +
                     std::to_string(c.profile.heightPx) +
@@ -154,9 +154,13 @@ std::optional<Request> drawCalibration(AppState& state, const Page& page) {
     if (!c.warnings.empty()) warning(c.warnings);
     if (!c.problem.empty()) warning(c.problem);
     ImGui::Dummy({0, page.px(10)});
-    const float left = std::floor(ImGui::GetContentRegionAvail().x * 0.5f);
+    // The card's column grows with the card, as long as the other one keeps what it needs.
+    const float half = std::floor(ImGui::GetContentRegionAvail().x * 0.5f);
+    const float room = page.px(28);  // to the right of the card
+    const float most = std::max(half, ImGui::GetContentRegionAvail().x - page.px(kMoreWidthPx));
+    const float left = std::clamp(static_cast<float>(c.cardWidthPx) + room, half, most);
     ImGui::BeginChild("card", {left - page.px(16), 0}, false, ImGuiWindowFlags_NoBackground);
-    drawCardColumn(c, page);
+    drawCardColumn(c, page, most - room);
     ImGui::EndChild();
     ImGui::SameLine(0, page.px(32));
     ImGui::BeginChild("more", {0, 0}, false, ImGuiWindowFlags_NoBackground);
