@@ -62,7 +62,9 @@ std::optional<Pressed> endPage(const Page& page, const Footer& footer) {
         ImGui::SameLine(0, page.px(14));
     }
     if (footer.secondary != nullptr) {
+        ImGui::BeginDisabled(!footer.secondaryEnabled);
         if (button(page, footer.secondary, false)) pressed = Pressed::secondary;
+        ImGui::EndDisabled();
         ImGui::SameLine(0, page.px(14));
     }
     if (footer.tertiary != nullptr) {

@@ -23,6 +23,7 @@ struct Footer {
     const char* primary = nullptr;  ///< Return presses it
     bool enabled = true;
     const char* secondary = nullptr;
+    bool secondaryEnabled = true;
     const char* tertiary = nullptr;
     std::string note{};  ///< beside the buttons
 };

@@ -168,7 +168,7 @@ void drawState(const Page& page, const SessionRunner& runner) {
          minutesText(runner.secondsLeft()) + " left" +
          (runner.stage() == SessionRunner::Stage::practice ? "  ·  in practice" : ""))
             .c_str());
-    const std::filesystem::path& table = runner.recorded().table();
+    const std::filesystem::path& table = runner.table();
     faint(page, formatted("%zu rows on disk, ", session.rows()) + diskText(table.parent_path()) +
                     "  ·  " +
                     formatted("%d of %d attention checks failed", session.catchFailed(),
@@ -176,7 +176,9 @@ void drawState(const Page& page, const SessionRunner& runner) {
                     "  ·  seed " + std::to_string(session.seed()));
     faint(page, table.string());
     if (const auto latency = runner.latency()) faint(page, toText(*latency));
-    for (const std::string& notice : runner.recorded().notices()) warning(notice);
+    if (runner.recorded() != nullptr) {
+        for (const std::string& notice : runner.recorded()->notices()) warning(notice);
+    }
     if (!runner.problem().empty()) warning(runner.problem());
 }
 

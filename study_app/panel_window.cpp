@@ -10,6 +10,11 @@
 #include "study_app/page_parts.h"
 
 namespace study_app {
+namespace {
+
+constexpr double kNewS = 1;
+
+}  // namespace
 
 void PanelWindow::toggle() {
     if (window_) {
@@ -23,6 +28,7 @@ void PanelWindow::toggle() {
                                     .uiScale = uiScale_,
                                     .title = "Stairwell experimenter"};
         window_ = std::make_unique<Window>(options, study_);
+        opened_ = Window::now();
         noteChange();
     }
     study_.makeCurrent();
@@ -30,6 +36,8 @@ void PanelWindow::toggle() {
 
 void PanelWindow::takeInput() {
     if (!window_) return;
+    // Window managers may hand the keyboard to a window that is new.
+    if (Window::now() < opened_ + kNewS && window_->focused()) study_.takeKeyboard();
     Input& input = window_->input();
     const auto isF2 = [](const Input::Press& press) { return press.key == GLFW_KEY_F2; };
     const bool close = input.closeRequested || std::ranges::any_of(input.presses, isF2);

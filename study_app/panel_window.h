@@ -35,6 +35,7 @@ class PanelWindow {
     std::optional<double> uiScale_;
     std::unique_ptr<Window> window_;
     int framesWanted_ = 0;
+    double opened_ = 0;
 };
 
 }  // namespace study_app

@@ -41,7 +41,9 @@ class StudyWindow {
     void actAsRobot(double now);
     void handleInput(double now);
     void handlePress(const Input::Press& press, double now);
-    void pressInTrials(const Input::Press& press, double now);
+    void pressInTrials(int key, double now);
+    void clickInTrials(const Input::Click& click, double now);
+    void answer(Side side, double now);
     bool localises() const;
     void locate(const Input::Click& click, double now);
     void pressOffTrials(int key, double now);
@@ -61,6 +63,8 @@ class StudyWindow {
     void actOnEvent(RunnerEvent event, double now);
     void go(FlowEvent event, double now);
     void enter(Screen screen, double now);
+    bool begin(SessionRunner::Stage stage, double now);
+    void interrupt(const std::string& why);
     void pause(const std::string& why, bool trouble);
     void undo(double now);
     void leaveSetup(double now);
@@ -150,7 +154,7 @@ void StudyWindow::actAsRobot(double now) {
     } else if (state_.answering() && state_.runner->phase() == TrialPhase::place) {
         // Every edge passes near the middle.
         const Input::Click middle{window_.widthPx() / 2.0, window_.heightPx() / 2.0};
-        window_.input().presses.push_back({.key = GLFW_KEY_UNKNOWN, .click = middle});
+        window_.input().presses.push_back({.click = middle});
     } else if (!state_.answering() && framesWanted_ == 0) {
         window_.input().presses.push_back({.key = GLFW_KEY_ENTER});
     }
@@ -168,13 +172,14 @@ void StudyWindow::handleInput(double now) {
 
 void StudyWindow::handleDisturbance() {
     if (!state_.answering()) return;
-    const bool wasOn = state_.runner->interrupt();
-    pause("The trial was interrupted: " + window_.input().disturbance + "." +
-              (wasOn ? " It comes again." : ""),
-          false);
+    interrupt("The trial was interrupted: " + window_.input().disturbance + ".");
 }
 
 void StudyWindow::handlePress(const Input::Press& press, double now) {
+    if (press.click) {
+        if (state_.answering()) clickInTrials(*press.click, now);
+        return;
+    }
     switch (press.key) {
         case GLFW_KEY_F2:
             if (state_.flow.screen == Screen::end) {
@@ -188,27 +193,31 @@ void StudyWindow::handlePress(const Input::Press& press, double now) {
             returnPressed_ = true;
             return;
         default:
-            return state_.answering() ? pressInTrials(press, now) : pressOffTrials(press.key, now);
+            return state_.answering() ? pressInTrials(press.key, now)
+                                      : pressOffTrials(press.key, now);
     }
 }
 
-void StudyWindow::pressInTrials(const Input::Press& press, double now) {
-    const auto answer = [&](Side side) {
-        if (const auto event = state_.runner->answer(side, now)) actOnEvent(*event, now);
-    };
-    switch (press.key) {
+void StudyWindow::answer(Side side, double now) {
+    if (const auto event = state_.runner->answer(side, now)) actOnEvent(*event, now);
+}
+
+void StudyWindow::clickInTrials(const Input::Click& click, double now) {
+    if (localises()) return locate(click, now);
+    answer(click.xPx < window_.widthPx() / 2.0 ? Side::left : Side::right, now);
+}
+
+void StudyWindow::pressInTrials(int key, double now) {
+    switch (key) {
         case GLFW_KEY_LEFT:
-            return answer(Side::left);
+            return answer(Side::left, now);
         case GLFW_KEY_RIGHT:
-            return answer(Side::right);
-        case GLFW_KEY_UNKNOWN:
-            if (localises()) return locate(press.click, now);
-            return answer(press.click.xPx < window_.widthPx() / 2.0 ? Side::left : Side::right);
+            return answer(Side::right, now);
         case GLFW_KEY_ESCAPE:
         case GLFW_KEY_P:
-            state_.runner->interrupt();
-            return pause("", false);
+            return interrupt("");
         case GLFW_KEY_BACKSPACE:
+            if (state_.runner->withdrawAnswer()) return settle();
             if (state_.flow.screen == Screen::trials && state_.runner->canUndo()) undo(now);
             return;
         default:
@@ -349,7 +358,11 @@ void StudyWindow::act(Request request, double now) {
         case Request::undo:
             return undo(now);
         case Request::quit:
-            if (state_.runner && state_.answering()) state_.runner->interrupt();
+            if (state_.runner && state_.answering()) {
+                interrupt("");
+                // Who quits once more knows what was not recorded.
+                if (!state_.runner->problem().empty()) return;
+            }
             return go(FlowEvent::quit, now);
         case Request::practiceAgain:
             state_.practiceOver = state_.practiceStuck = false;
@@ -423,9 +436,28 @@ void StudyWindow::enter(Screen screen, double now) {
                      true);
     }
     state_.message.clear();
-    state_.runner->begin(
+    begin(
         screen == Screen::practice ? SessionRunner::Stage::practice : SessionRunner::Stage::session,
         now);
+}
+
+bool StudyWindow::begin(SessionRunner::Stage stage, double now) {
+    if (state_.runner->begin(stage, now)) return true;
+    pause("The session cannot go on. " + state_.runner->problem(), true);
+    return false;
+}
+
+/// A pause in the middle of a trial, which comes again.
+void StudyWindow::interrupt(const std::string& why) {
+    const bool wasOn = state_.runner->interrupt();
+    if (!state_.runner->problem().empty()) {
+        return pause(
+            "The trial that was interrupted could not be recorded as such, and comes "
+            "again. " +
+                state_.runner->problem(),
+            true);
+    }
+    pause(wasOn && !why.empty() ? why + " It comes again." : why, false);
 }
 
 void StudyWindow::pause(const std::string& why, bool trouble) {
@@ -445,7 +477,7 @@ void StudyWindow::undo(double now) {
         return pause("The answer could not be taken back. " + state_.runner->problem(), true);
     }
     if (state_.flow.screen == Screen::trials) {
-        state_.runner->begin(SessionRunner::Stage::session, now);
+        if (!begin(SessionRunner::Stage::session, now)) return;
     } else {
         go(FlowEvent::undone, now);
     }
@@ -494,7 +526,11 @@ void StudyWindow::rerun(double now) {
         state_.message = error.what();
         return;
     }
+    const Session& session = state_.runner->session();
     go(FlowEvent::rerun, now);
+    state_.message = "One condition comes once more, " + session.design().name + ": " +
+                     std::to_string(session.total()) + " trials. Go on when the observer is ready.";
+    state_.messageIsTrouble = false;
 }
 
 }  // namespace

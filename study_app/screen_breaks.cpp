@@ -9,18 +9,21 @@
 namespace study_app {
 namespace {
 
-std::optional<Request> requestOf(const std::optional<Pressed>& pressed, bool canUndo) {
+std::optional<Request> requestOf(const std::optional<Pressed>& pressed) {
     if (pressed == Pressed::primary) return Request::next;
-    if (pressed == Pressed::secondary) return canUndo ? Request::undo : Request::quit;
+    if (pressed == Pressed::secondary) return Request::undo;
     if (pressed == Pressed::tertiary) return Request::quit;
     return {};
 }
 
-Footer footer(const char* primary, bool enabled, bool canUndo) {
+/// The buttons keep their places: a second click on one that has done its work must not meet
+/// another one.
+Footer footer(const char* primary, bool enabled, const SessionRunner& runner) {
     return {.primary = primary,
             .enabled = enabled,
-            .secondary = canUndo ? "Take back the last answer (Backspace)" : "Stop for today (Q)",
-            .tertiary = canUndo ? "Stop for today (Q)" : nullptr};
+            .secondary = "Take back the last answer (Backspace)",
+            .secondaryEnabled = runner.canUndo(),
+            .tertiary = "Stop for today (Q)"};
 }
 
 void drawMessage(const AppState& state) {
@@ -78,23 +81,25 @@ std::optional<Request> drawRest(AppState& state, const Page& page) {
         std::snprintf(text, sizeof text, "You can go on in %.0f s.", std::ceil(wait));
         faint(page, text);
     }
-    const bool canUndo = state.runner->canUndo();
-    const auto pressed = endPage(page, footer("Go on", over, canUndo));
+    const auto pressed = endPage(page, footer("Go on", over, *state.runner));
     drawProgress(page, *state.runner);
-    return requestOf(pressed, canUndo);
+    return requestOf(pressed);
 }
 
 std::optional<Request> drawPause(AppState& state, const Page& page) {
     beginPage(page, "Paused", 760);
     drawMessage(state);
     paragraph("Take your time. When you go on, a new trial begins.");
-    faint(page,
-          "Everything you answered is saved. If you stop for today, the session can be resumed "
-          "at any time with the same settings.");
-    const bool canUndo = state.runner->canUndo();
-    const auto pressed = endPage(page, footer("Go on", true, canUndo));
+    const bool trouble = state.messageIsTrouble && !state.message.empty();
+    if (!trouble) {
+        faint(page,
+              "Everything you answered is saved. If you stop for today, the session can be resumed "
+              "at any time with the same settings.");
+    }
+    const auto pressed =
+        endPage(page, footer(trouble ? "Try again" : "Go on", true, *state.runner));
     drawProgress(page, *state.runner);
-    return requestOf(pressed, canUndo);
+    return requestOf(pressed);
 }
 
 }  // namespace study_app

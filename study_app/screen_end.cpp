@@ -79,7 +79,7 @@ void drawResults(AppState& state, const Page& page, std::optional<Request>& requ
     }
     ImGui::PopFont();
     faint(page, contextLine(session));
-    faint(page, state.runner->recorded().table().string());
+    faint(page, state.runner->table().string());
 }
 
 }  // namespace
@@ -91,8 +91,9 @@ std::optional<Request> drawEnd(AppState& state, const Page& page) {
         drawResults(state, page, request);
     } else {
         paragraph(
-            "That was the last trial. Your answers are saved, and every one of them helps to "
-            "find out how much blur it takes to hide an edge made of steps.");
+            "That was the last trial. Every one of your answers helps to find out how much blur it "
+            "takes to hide an edge made of steps.");
+        if (state.message.empty()) paragraph("They are saved.");
         paragraph("Please tell the experimenter that you are done.");
         if (!state.message.empty()) warning(state.message);
     }

@@ -56,7 +56,8 @@ Flow after(const Flow& flow, FlowEvent event, const FlowNeeds& needs) {
             // From a pause or a break one goes on by one's own decision; the end has none to offer.
             return at == Screen::end ? Flow{Screen::pause, Screen::trials} : flow;
         case FlowEvent::rerun:
-            return at == Screen::end ? to(Screen::trials) : flow;
+            // The observer is not at the keys yet.
+            return at == Screen::end ? Flow{Screen::pause, Screen::trials} : flow;
         case FlowEvent::quit:
             return to(Screen::closed);
     }

@@ -58,7 +58,13 @@ bool SessionRunner::practiceNeeded() const {
     return practice_.rule().correct > 0 && !practice_.ruleMet();
 }
 
-void SessionRunner::begin(Stage stage, double now) {
+std::filesystem::path SessionRunner::table() const {
+    return records::trialTablePath(request_.dataFolder, request_.participant, request_.session);
+}
+
+bool SessionRunner::begin(Stage stage, double now) {
+    if (!recorded_ && !reopen()) return false;
+    problem_.clear();
     if (!clockStarted_) {
         sessionStart_ = now - resumeTime(*recorded_);
         clockStarted_ = true;
@@ -70,9 +76,11 @@ void SessionRunner::begin(Stage stage, double now) {
     lastAnswer_.reset();
     prefetcher_.request({trial()});
     clock_.begin(now);
+    return true;
 }
 
 bool SessionRunner::interrupt() {
+    problem_.clear();
     const auto outcome = clock_.disturb();
     lastAnswer_.reset();
     answerPending_.reset();
@@ -166,7 +174,8 @@ std::optional<RunnerEvent> SessionRunner::record(const Outcome& outcome) {
         problem_ = error.what();
         reopen();
         clock_.stop();
-        undoable_ = false;
+        // Of two answers, the one that is lost and the one before, only the first is the last.
+        if (outcome.status != records::TrialStatus::repeated) undoable_ = false;
         return RunnerEvent::notRecorded;
     }
     rows_.push_back(*recorded_->lastRow());
@@ -215,17 +224,45 @@ const TrialImages& SessionRunner::images() {
     return *images_;
 }
 
-void SessionRunner::reopen() {
+/// Goes on from what is on disk. A session that is not there any more is not begun anew.
+bool SessionRunner::reopen() {
     recorded_.reset();  // gives the lock back first
-    recorded_ = std::make_unique<RecordedSession>(request_);
-    rows_ = records::readTrialTable(recorded_->table()).trials;
+    try {
+        requireNothingLost();
+        recorded_ = std::make_unique<RecordedSession>(request_);
+        rows_ = records::readTrialTable(recorded_->table()).trials;
+        lost_.reset();
+        return true;
+    } catch (const std::runtime_error& error) {
+        problem_ = error.what();
+        recorded_.reset();
+        lost_.emplace(request_.design, request_.seed);
+        for (const records::Trial& row : rows_) lost_->replay(row);
+        return false;
+    }
+}
+
+void SessionRunner::requireNothingLost() const {
+    for (const std::filesystem::path& file : {table(), records::sidecarPath(table())}) {
+        if (std::filesystem::exists(file)) continue;
+        throw std::runtime_error(
+            file.string() + ": is missing: the session goes on only from the " +
+            std::to_string(rows_.size()) + " rows recorded so far: put it back, then try again");
+    }
+    const std::size_t there = records::readTrialTable(table()).trials.size();
+    if (there >= rows_.size()) return;
+    throw std::runtime_error(table().string() + ": holds " + std::to_string(there) +
+                             " rows: must hold the " + std::to_string(rows_.size()) +
+                             " recorded so far: put them back, then try again");
 }
 
 bool SessionRunner::undo() {
     if (!undoable_) throw std::logic_error("study_app: there is no answer that could be undone");
     interrupt();
+    if (!problem_.empty() || (!recorded_ && !reopen())) return false;
     images_.reset();
     try {
+        requireNothingLost();
         undoLastAnswer(recorded_, request_);
         rows_ = records::readTrialTable(recorded_->table()).trials;
     } catch (const std::runtime_error& error) {

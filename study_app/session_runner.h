@@ -56,18 +56,24 @@ class SessionRunner {
     /// Starts or resumes the session. Throws what RecordedSession throws.
     explicit SessionRunner(const SessionRequest& request);
 
-    const Session& session() const { return recorded_->session(); }
-    const RecordedSession& recorded() const { return *recorded_; }
+    /// As far as it is recorded, also while its table is lost.
+    const Session& session() const { return recorded_ ? recorded_->session() : *lost_; }
+    /// Nothing while the table is lost.
+    const RecordedSession* recorded() const { return recorded_.get(); }
+    std::filesystem::path table() const;
     const SessionRequest& request() const { return request_; }
     const Presentation& presentation() const { return request_.design.presentation; }
     const Practice& practice() const { return practice_; }
     bool practiceNeeded() const;
     void startPracticeAgain() { practice_.startAgain(); }
 
-    /// The next trial, from its blank on. A break that was taken is over with it.
-    void begin(Stage stage, double now);
+    /// The next trial, from its blank on. A break that was taken is over with it. Returns false
+    /// where the table was lost and is not back, nothing being made in its place: problem() says
+    /// which file.
+    bool begin(Stage stage, double now);
     /// Another screen is shown. A stimulus on screen is not seen as it should be: its row is
-    /// recorded as repeated. Returns whether there was one, or what went wrong.
+    /// recorded as repeated. Returns whether there was one; problem() is empty, or why its row
+    /// could not be recorded.
     bool interrupt();
 
     TrialPhase phase() const { return clock_.phase(); }
@@ -79,6 +85,9 @@ class SessionRunner {
     /// Where the observer sees the artifact: after placeWanted, or as the answer "seen" itself. Of
     /// no effect where the design does not localise.
     std::optional<RunnerEvent> locate(const Place& place, double now);
+    /// Takes back the answer whose place is asked for; the stimulus waits for another one. Returns
+    /// whether there was one.
+    bool withdrawAnswer() { return clock_.withdraw(); }
     double secondsUntilChange(double now) const { return clock_.secondsUntilChange(now); }
 
     /// The trial that comes next or is on screen, and its codes.
@@ -91,7 +100,8 @@ class SessionRunner {
 
     /// One answer can be taken back, the last one of this sitting.
     bool canUndo() const { return undoable_; }
-    /// Returns false where the marks could not be written: problem() says why, nothing is undone.
+    /// Returns false where the trial on screen or the marks could not be written: problem() says
+    /// why, nothing is undone.
     bool undo();
 
     double secondsLeft() const;
@@ -108,10 +118,12 @@ class SessionRunner {
     std::optional<RunnerEvent> proceed(double now);
     void takeInPractice(const Outcome& outcome);
     void notePace(double now);
-    void reopen();
+    bool reopen();
+    void requireNothingLost() const;
 
     SessionRequest request_;
-    std::unique_ptr<RecordedSession> recorded_;
+    std::unique_ptr<RecordedSession> recorded_;  // none while the table is lost
+    std::optional<Session> lost_;                // then
     Practice practice_;
     TrialClock clock_;
     StimulusPrefetcher prefetcher_;

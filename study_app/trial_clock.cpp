@@ -57,6 +57,12 @@ std::optional<Outcome> TrialClock::locate(const Place& place) {
     return unplaced_;
 }
 
+bool TrialClock::withdraw() {
+    if (phase_ != TrialPhase::place) return false;
+    phase_ = TrialPhase::stimulus;
+    return true;
+}
+
 std::optional<Outcome> TrialClock::disturb() {
     const bool wasOn = phase_ == TrialPhase::stimulus || phase_ == TrialPhase::place;
     const Outcome outcome = finish(records::TrialStatus::repeated);

@@ -59,6 +59,9 @@ class TrialClock {
     void askForPlace(const Outcome& answered);
     /// The answer with its place; nothing where none was asked for.
     std::optional<Outcome> locate(const Place& place);
+    /// The answer whose place was asked for is taken back, and the stimulus waits for another one,
+    /// timed from the same swap. False where none was asked for.
+    bool withdraw();
     /// Focus lost, window resized, display unplugged, pause: an outcome where a stimulus was on.
     std::optional<Outcome> disturb();
     /// Feedback is shown before the next begin().

@@ -19,7 +19,7 @@ void markUndone(const std::filesystem::path& file) {
     const auto lastOk = std::find_if(table.trials.rbegin(), table.trials.rend(),
                                      [](const Trial& t) { return t.status == TrialStatus::ok; });
     if (lastOk == table.trials.rend()) {
-        throw std::logic_error(file.string() + ": holds no answer that could be undone");
+        throw std::runtime_error(file.string() + ": holds no answer that could be undone");
     }
     for (auto row = table.trials.rbegin(); row != std::next(lastOk); ++row) {
         row->status = TrialStatus::undone;

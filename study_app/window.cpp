@@ -39,7 +39,9 @@ namespace {
 
 void onKey(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
     const Listener heard(window);
-    if (action == GLFW_PRESS) heard.input.presses.push_back({.key = key});
+    // Volume, brightness and the like: no key of ours, and nothing that could be an answer.
+    const bool known = key != GLFW_KEY_UNKNOWN;
+    if (action == GLFW_PRESS && known) heard.input.presses.push_back({.key = key});
     ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
 }
 
@@ -57,9 +59,9 @@ void onMouseButton(GLFWwindow* window, int button, int action, int modifiers) {
     glfwGetCursorPos(window, &x, &y);
     glfwGetWindowSize(window, &windowWidth, &windowHeight);
     glfwGetFramebufferSize(window, &width, &height);
-    heard.input.presses.push_back({.key = GLFW_KEY_UNKNOWN,
-                                   .click = {.xPx = x * width / std::max(1, windowWidth),
-                                             .yPx = y * height / std::max(1, windowHeight)}});
+    heard.input.presses.push_back(
+        {.click = Input::Click{.xPx = x * width / std::max(1, windowWidth),
+                               .yPx = y * height / std::max(1, windowHeight)}});
 }
 
 void onScroll(GLFWwindow* window, double x, double y) {
@@ -137,11 +139,9 @@ Window::Window(const WindowOptions& options) : library_(std::make_shared<Library
 }
 
 Window::Window(const WindowOptions& options, const Window& first) : library_(first.library_) {
-    const bool firstHadFocus = first.focused();
     open(options, &first);
     listen();
     startInterface();
-    if (firstHadFocus) glfwFocusWindow(first.window_.get());
 }
 
 Window::~Window() {
@@ -171,6 +171,8 @@ void Window::open(const WindowOptions& options, const Window* first) {
         for (const int hint : {GLFW_VISIBLE, GLFW_FOCUSED, GLFW_FOCUS_ON_SHOW}) {
             glfwWindowHint(hint, GLFW_FALSE);
         }
+        // Nowhere else to be seen than over the first one.
+        if (connectedMonitors().size() == 1) glfwWindowHint(GLFW_FLOATING, GLFW_TRUE);
         const std::vector<DesktopRect> areas = workAreas();
         if (!areas.empty()) {
             place = placeBeside(desktopRect(first->window_.get()), areas, width, height);
@@ -297,6 +299,10 @@ int Window::heightPx() const {
 
 bool Window::focused() const {
     return glfwGetWindowAttrib(window_.get(), GLFW_FOCUSED) == GLFW_TRUE;
+}
+
+void Window::takeKeyboard() const {
+    glfwFocusWindow(window_.get());
 }
 
 void Window::showCursor(bool shown) {

@@ -39,8 +39,8 @@ struct Input {
         double xPx = 0, yPx = 0;  ///< framebuffer pixels from the top left
     };
     struct Press {
-        int key = 0;  ///< GLFW_KEY_...; GLFW_KEY_UNKNOWN for a click
-        Click click{};
+        int key = 0;  ///< GLFW_KEY_..., never GLFW_KEY_UNKNOWN; of no meaning for a click
+        std::optional<Click> click{};  ///< of the left button; absent for a key
     };
     std::vector<Press> presses;  ///< keys (no repeats) and left clicks
     /// Why a stimulus on screen was not seen as it should be; empty where it was.
@@ -61,8 +61,8 @@ class Window {
     /// Throws std::runtime_error: no display, no OpenGL 3.3.
     explicit Window(const WindowOptions& options);
     /// A second window, for someone else than the first one's observer: on another monitor or where
-    /// it hides least of the first one. It does not take the keyboard away from it, its swaps do
-    /// not wait for the display, and it must not outlive it.
+    /// it hides least of the first one, in front of it where there is but one monitor. It asks for
+    /// no keyboard, its swaps do not wait for the display, and it must not outlive the first one.
     Window(const WindowOptions& options, const Window& first);
     ~Window();
     Window(const Window&) = delete;
@@ -90,6 +90,7 @@ class Window {
     float uiScale() const { return uiScale_; }
     const Fonts& fonts() const { return fonts_; }
     bool focused() const;
+    void takeKeyboard() const;  ///< asks the window system for it
     void showCursor(bool shown);
 
     DisplayState displayState() const;

@@ -70,6 +70,12 @@ TEST(ScreenFlow, EveryScreenCanBeLeftAndEventsOutOfPlaceChangeNothing) {
     }
 }
 
+TEST(ScreenFlow, WaitsForTheObserverBeforeAConditionIsRunAgain) {
+    const Flow flow = after({.screen = Screen::end}, FlowEvent::rerun);
+    EXPECT_EQ(flow.screen, Screen::pause);
+    EXPECT_EQ(after(flow, FlowEvent::next).screen, Screen::trials);
+}
+
 TEST(ScreenFlow, TakesAnAnswerBackAtTheEnd) {
     const Flow flow = after({.screen = Screen::end}, FlowEvent::undone);
     EXPECT_EQ(flow.screen, Screen::pause);
@@ -135,6 +141,18 @@ TEST(TrialClock, HoldsAnAnswerUntilItsPlaceIsGiven) {
     TrialClock disturbed = shownAt(1);
     disturbed.askForPlace(*disturbed.answer(Response::seen, 1.75));
     EXPECT_EQ(disturbed.disturb()->status, TrialStatus::repeated);
+}
+
+TEST(TrialClock, AnAnswerWithoutItsPlaceCanBeWithdrawn) {
+    TrialClock clock = shownAt(1);
+    EXPECT_FALSE(clock.withdraw());
+    clock.askForPlace(*clock.answer(Response::seen, 1.75));
+    EXPECT_TRUE(clock.withdraw());
+    EXPECT_FALSE(clock.locate({.xPx = 3, .yPx = 4}));
+    const auto other = clock.answer(Response::notSeen, 3);
+    ASSERT_TRUE(other);
+    EXPECT_EQ(other->response, Response::notSeen);
+    EXPECT_DOUBLE_EQ(other->responseTimeS.value(), 2);
 }
 
 TEST(TrialClock, MarksWhatIsTooFast) {

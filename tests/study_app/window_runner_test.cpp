@@ -12,6 +12,7 @@
 #include "study_app/practice.h"
 #include "study_app/session_flags.h"
 #include "study_app/session_runner.h"
+#include "study_app/session_start.h"
 #include "study_app/setup_form.h"
 #include "study_app/trial_stimulus.h"
 #include "study_app/undo.h"
@@ -84,13 +85,13 @@ TEST(SessionRunner, RecordsEveryAnswerBeforeTheNextTrial) {
         person.show();
         const Trial shown = runner.trial();
         event = person.answer(i % 3 != 0);
-        const auto rows = records::readTrialTable(runner.recorded().table()).trials;
+        const auto rows = records::readTrialTable(runner.table()).trials;
         ASSERT_EQ(rows.size(), i);
         EXPECT_EQ(rows.back().filterRadiusPx, shown.filterRadiusPx);
         EXPECT_EQ(rows.back().correct, i % 3 != 0);
         EXPECT_NEAR(rows.back().responseTimeS.value(), 0.5, 1e-6);
     }
-    EXPECT_NO_THROW(replayTable(runner.recorded().table()));
+    EXPECT_NO_THROW(replayTable(runner.table()));
 }
 
 TEST(SessionRunner, RepeatsWhatWasTooFastOrDisturbed) {
@@ -109,13 +110,13 @@ TEST(SessionRunner, RepeatsWhatWasTooFastOrDisturbed) {
     person.show();
     EXPECT_EQ(runner.trial().condition, condition);
     person.answer(true);
-    const auto rows = records::readTrialTable(runner.recorded().table()).trials;
+    const auto rows = records::readTrialTable(runner.table()).trials;
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_EQ(rows[0].status, TrialStatus::tooFast);
     EXPECT_EQ(rows[1].status, TrialStatus::repeated);
     EXPECT_FALSE(rows[1].responseTimeS);
     EXPECT_EQ(rows[2].status, TrialStatus::ok);
-    EXPECT_NO_THROW(replayTable(runner.recorded().table()));
+    EXPECT_NO_THROW(replayTable(runner.table()));
 }
 
 TEST(SessionRunner, UndoneAnswersLeaveTheStaircasesAsIfTheyHadNotBeenGiven) {
@@ -135,7 +136,7 @@ TEST(SessionRunner, UndoneAnswersLeaveTheStaircasesAsIfTheyHadNotBeenGiven) {
     ASSERT_TRUE(runner.canUndo());
     EXPECT_TRUE(runner.undo());
     EXPECT_FALSE(runner.canUndo());
-    const auto rows = records::readTrialTable(runner.recorded().table()).trials;
+    const auto rows = records::readTrialTable(runner.table()).trials;
     ASSERT_EQ(rows.size(), 6u);
     EXPECT_EQ(rows[3].status, TrialStatus::ok);
     EXPECT_EQ(rows[4].status, TrialStatus::undone);
@@ -147,7 +148,76 @@ TEST(SessionRunner, UndoneAnswersLeaveTheStaircasesAsIfTheyHadNotBeenGiven) {
     runner.begin(SessionRunner::Stage::session, person.now);
     person.show();
     person.answer(true);
-    EXPECT_EQ(replayTable(runner.recorded().table()).session.answered(), 5u);
+    EXPECT_EQ(replayTable(runner.table()).session.answered(), 5u);
+}
+
+TEST(SessionRunner, IsNotBegunAnewWhereItsFilesAreGone) {
+    const tests::TemporaryFolder folder;
+    SessionRunner runner(requestIn(folder));
+    Sitting person{runner};
+    runner.begin(SessionRunner::Stage::session, person.now);
+    for (int i = 0; i < 2; ++i) {
+        person.show();
+        person.answer(true);
+    }
+    person.show();
+    const auto data = folder.path() / "data", away = folder.path() / "away";
+    std::filesystem::rename(data, away);
+    EXPECT_EQ(person.answer(true), RunnerEvent::notRecorded);
+    EXPECT_THAT(runner.problem(), testing::HasSubstr(runner.table().string() + ": is missing"));
+    EXPECT_EQ(runner.session().answered(), 2u);
+    EXPECT_EQ(runner.rows().size(), 2u);
+    EXPECT_FALSE(runner.begin(SessionRunner::Stage::session, person.now));
+    EXPECT_FALSE(std::filesystem::exists(data));
+    // Somebody else's, or an empty one: not the rows that were recorded.
+    std::filesystem::create_directories(runner.table().parent_path());
+    std::filesystem::copy(away, data, std::filesystem::copy_options::recursive);
+    std::ofstream(runner.table()) << records::trialTableHeader({}) << "\n";
+    EXPECT_FALSE(runner.begin(SessionRunner::Stage::session, person.now));
+    EXPECT_THAT(runner.problem(), testing::HasSubstr("holds 0 rows"));
+    std::filesystem::remove_all(data);
+    std::filesystem::rename(away, data);
+    ASSERT_TRUE(runner.begin(SessionRunner::Stage::session, person.now));
+    EXPECT_EQ(runner.problem(), "");
+    person.show();
+    person.answer(true);
+    EXPECT_EQ(replayTable(runner.table()).session.answered(), 3u);
+}
+
+TEST(SessionRunner, TakesNothingBackWhileItsFilesAreGone) {
+    for (const bool stimulusOn : {true, false}) {
+        const tests::TemporaryFolder folder;
+        SessionRunner runner(requestIn(folder));
+        Sitting person{runner};
+        runner.begin(SessionRunner::Stage::session, person.now);
+        for (int i = 0; i < 2; ++i) {
+            person.show();
+            person.answer(true);
+        }
+        if (stimulusOn) person.show();
+        const auto data = folder.path() / "data", away = folder.path() / "away";
+        std::filesystem::rename(data, away);
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_FALSE(runner.undo());
+            EXPECT_THAT(runner.problem(), testing::HasSubstr("is missing"));
+            EXPECT_FALSE(std::filesystem::exists(data));
+        }
+        std::filesystem::rename(away, data);
+        EXPECT_EQ(replayTable(runner.table()).session.answered(), 2u);
+        EXPECT_TRUE(runner.undo());
+        EXPECT_EQ(replayTable(runner.table()).session.answered(), 1u);
+    }
+}
+
+TEST(SessionRunner, SaysThatADisturbedTrialCouldNotBeRecorded) {
+    const tests::TemporaryFolder folder;
+    SessionRunner runner(requestIn(folder));
+    Sitting person{runner};
+    runner.begin(SessionRunner::Stage::session, person.now);
+    person.show();
+    std::filesystem::rename(folder.path() / "data", folder.path() / "away");
+    EXPECT_TRUE(runner.interrupt());
+    EXPECT_THAT(runner.problem(), testing::HasSubstr("is missing"));
 }
 
 TEST(SessionRunner, AsksForBreaksByTheNumberOfAnswers) {
@@ -365,6 +435,56 @@ TEST(SetupForm, SaysWhatIsMissing) {
     form.seed = "";
     form.age = "old";
     EXPECT_THAT(missing(form), testing::HasSubstr("age"));
+}
+
+/// As the set-up screen does it, with every character.
+void type(SetupState& setup, const std::string& participant) {
+    for (std::size_t n = 0; n <= participant.size(); ++n) {
+        setup.form.participant = participant.substr(0, n);
+        lookUp(setup);
+    }
+}
+
+TEST(SetupForm, DetailsOfOneParticipantDoNotLandOnAnother) {
+    const tests::TemporaryFolder folder;
+    records::writeParticipant(folder.path(), "01", {.age = 31.5, .gender = "f", .expertise = ""});
+    SetupState setup;
+    setup.form.dataFolder = folder.path().string();
+    type(setup, "01");
+    EXPECT_EQ(setup.form.age, "31.5");
+    EXPECT_EQ(setup.form.gender, "f");
+    setup.form.expertise = "graphics";
+    type(setup, "012");
+    EXPECT_EQ(setup.form.age, "");
+    EXPECT_EQ(setup.form.gender, "");
+    EXPECT_EQ(setup.form.expertise, "graphics");  // typed
+    EXPECT_EQ(setup.problem, "");
+}
+
+TEST(SetupForm, GivenDetailsFillGapsAndContradictNothing) {
+    const tests::TemporaryFolder folder;
+    records::writeParticipant(folder.path(), "01", {.age = 31, .gender = "", .expertise = ""});
+    SetupState setup;
+    setup.form.dataFolder = folder.path().string();
+    setup.form.participant = "01";
+    setup.form.gender = "f";
+    setup.form.age = "31.0";
+    lookUp(setup);
+    EXPECT_EQ(setup.problem, "");
+    EXPECT_EQ(setup.form.gender, "f");
+    setup.form.age = "40";
+    for (int i = 0; i < 2; ++i) {
+        lookUp(setup);
+        EXPECT_THAT(setup.problem,
+                    testing::HasSubstr("participants.tsv: sub-01: age is \"31\" there and \"40\""));
+    }
+    // What was filled in may be corrected.
+    SetupState corrected;
+    corrected.form.dataFolder = folder.path().string();
+    type(corrected, "01");
+    corrected.form.age = "32";
+    lookUp(corrected);
+    EXPECT_EQ(corrected.problem, "");
 }
 
 TEST(SetupForm, ChangesTheTaskAtTheSameCriterion) {

@@ -42,6 +42,52 @@ TEST_F(WindowTrouble, MashingKeysGivesOneAnswerPerTrial) {
     EXPECT_EQ(recorded[0].response, records::Response::right);
 }
 
+TEST_F(WindowTrouble, AKeyThatNobodyKnowsIsNoAnswer) {
+    WindowPerson person(server_, folder_.path(), arguments());
+    agree(person);
+    person.waitFor("stimulus 1");
+    person.press("XF86AudioRaiseVolume XF86AudioMute Right");
+    person.waitFor("stimulus 2");
+    ASSERT_EQ(rows().size(), 1u);
+    EXPECT_EQ(rows()[0].response, records::Response::right);
+}
+
+TEST_F(WindowTrouble, ASecondClickOnTakeBackMeetsNoOtherButton) {
+    WindowPerson person(server_, folder_.path(), arguments());
+    agree(person);
+    answer(person, "left");
+    person.waitFor("stimulus");
+    person.press("Escape");
+    person.waitFor("screen pause");
+    // Beside "Go on" at the foot of the page, which is 760 px wide.
+    person.xdotool({"mousemove", "450", "727", "click", "--repeat", "3", "--delay", "80", "1"});
+    person.press("Return");
+    person.waitFor("screen trials");
+    person.waitFor("stimulus");
+    EXPECT_EQ(rows()[0].status, TrialStatus::undone);
+}
+
+TEST_F(WindowTrouble, StaysPausedUntilALostDataFolderIsBack) {
+    WindowPerson person(server_, folder_.path(), arguments());
+    agree(person);
+    answer(person, "left");
+    person.waitFor("stimulus 2");
+    std::filesystem::rename(data(), file("away"));
+    person.press("Right");
+    EXPECT_THAT(person.waitFor("problem"), HasSubstr(table().string() + ": is missing"));
+    for (const char* key : {"BackSpace", "Return"}) {
+        person.press(key);
+        if (std::string(key) == "Return") {
+            EXPECT_THAT(person.waitFor("problem"), HasSubstr("cannot go on"));
+        }
+        EXPECT_FALSE(std::filesystem::exists(data()));
+    }
+    std::filesystem::rename(file("away"), data());
+    person.press("Return");
+    EXPECT_EQ(answer(person, "left"), "row 2 ok");
+    EXPECT_EQ(study_app::replayTable(table()).session.answered(), 2u);
+}
+
 TEST_F(WindowTrouble, MarksWhatIsTooFastToBeAnAnswer) {
     WindowPerson person(server_, folder_.path(), arguments(R"({"blank_s": 0.02, "fixation_s": 0.05,
         "too_fast_s": 2, "break_every_trials": 0, "practice": {"correct": 0}})"));
