@@ -11,7 +11,7 @@
 namespace study_app {
 namespace {
 
-constexpr float kLeastCardPx = 80, kMoreWidthPx = 350;
+constexpr float kLeastCardPx = 80, kMoreWidthPx = 470;
 
 template <typename... Values>
 std::string formatted(const char* format, Values... values) {
@@ -63,7 +63,6 @@ void drawCardColumn(CalibrationState& c, const Page& page, float widest) {
     faint(page,
           "Hold a bank card against the screen and drag the right edge until the sizes agree.");
     ImGui::Dummy({0, page.px(4)});
-    drawCard(c, page, widest);
     const auto nudge = [&](const char* text, double by) {
         if (ImGui::Button(text)) match(c, c.cardWidthPx + by, page, widest);
         ImGui::SameLine();
@@ -75,6 +74,8 @@ void drawCardColumn(CalibrationState& c, const Page& page, float widest) {
                                                      pxPerMmFromCard(c.cardWidthPx))
                                                .c_str()
                                          : "not matched yet");
+    ImGui::Dummy({0, page.px(4)});
+    drawCard(c, page, widest);
 }
 
 cv::Mat gammaPattern(int edgePx, int greyCode) {
