@@ -73,6 +73,14 @@ struct Sitting {
         now += after;
         return runner.answer(side, now);
     }
+    /// Begins the session and answers so many trials.
+    void sit(int answers) {
+        runner.begin(SessionRunner::Stage::session, now);
+        for (int i = 0; i < answers; ++i) {
+            show();
+            answer(true);
+        }
+    }
 };
 
 TEST(SessionRunner, RecordsEveryAnswerBeforeTheNextTrial) {
@@ -123,11 +131,7 @@ TEST(SessionRunner, UndoneAnswersLeaveTheStaircasesAsIfTheyHadNotBeenGiven) {
     const tests::TemporaryFolder folder;
     SessionRunner runner(requestIn(folder));
     Sitting person{runner};
-    runner.begin(SessionRunner::Stage::session, person.now);
-    for (int i = 0; i < 4; ++i) {
-        person.show();
-        person.answer(true);
-    }
+    person.sit(4);
     person.show();
     const Trial before = runner.trial();
     const Session stateBefore = runner.session();
@@ -155,11 +159,7 @@ TEST(SessionRunner, IsNotBegunAnewWhereItsFilesAreGone) {
     const tests::TemporaryFolder folder;
     SessionRunner runner(requestIn(folder));
     Sitting person{runner};
-    runner.begin(SessionRunner::Stage::session, person.now);
-    for (int i = 0; i < 2; ++i) {
-        person.show();
-        person.answer(true);
-    }
+    person.sit(2);
     person.show();
     const auto data = folder.path() / "data", away = folder.path() / "away";
     std::filesystem::rename(data, away);
@@ -189,11 +189,7 @@ TEST(SessionRunner, TakesNothingBackWhileItsFilesAreGone) {
         const tests::TemporaryFolder folder;
         SessionRunner runner(requestIn(folder));
         Sitting person{runner};
-        runner.begin(SessionRunner::Stage::session, person.now);
-        for (int i = 0; i < 2; ++i) {
-            person.show();
-            person.answer(true);
-        }
+        person.sit(2);
         if (stimulusOn) person.show();
         const auto data = folder.path() / "data", away = folder.path() / "away";
         std::filesystem::rename(data, away);
