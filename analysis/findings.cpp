@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kLevel = 0.05;          // of the tests that only sentences hang on
 constexpr std::size_t kNamesListed = 6;  // of observers in one sentence
+// Chosen by eye: what agrees with the law and with half as much again says nothing of the law.
+constexpr double kTellingChange = 0.5;
+constexpr double kMisfit = 1.5;  // X^2 over its degrees of freedom: intervals a fifth too short
+constexpr double kNearGuessing = 0.65;  // P(correct) in 2AFC
 
 std::string countText(int count, const std::string& one) {
     return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
@@ -49,11 +53,15 @@ std::pair<double, double> sizeRange(const Study& study) {
 std::string lawAccepted(const SlopeAnalysis& analysis) {
     const auto [least, most] = sizeRange(analysis.study);
     const std::string range = shortText(least) + " to " + shortText(most) + " px";
-    std::string text = "The data agree with the law: one c serves every size from " + range;
-    if (const auto ci95 = analysis.slope.kappa->ci95()) {
-        const double off = std::max(std::abs(ci95->low - 1), std::abs(ci95->high - 1));
-        text += ". What kappa's interval still allows changes c by at most " +
-                percentText(std::pow(most / least, off) - 1) + " over that range";
+    const auto ci95 = analysis.slope.kappa->ci95();
+    const double off = ci95 ? std::max(std::abs(ci95->low - 1), std::abs(ci95->high - 1)) : 0;
+    const double allowed = std::pow(most / least, off) - 1;
+    std::string text = allowed > kTellingChange
+                           ? "The data cannot tell whether the law holds from " + range
+                           : "The data agree with the law: one c serves every size from " + range;
+    if (ci95) {
+        text += ". What kappa's interval still allows changes c by up to " + percentText(allowed) +
+                " over that range";
     }
     return text + ".";
 }
@@ -95,8 +103,13 @@ std::string groupFinding(const SlopeAnalysis& analysis) {
     };
     return found + "They differ, from c = " + cOf(least) + " (" +
            analysis.study.groups[least].name + ") to " + cOf(most) + " (" +
-           analysis.study.groups[most].name + "). The headline, of " + analysis.slope.worstGroup +
-           ", is safe for all of them; where only the easier ones occur, their own c is enough.";
+           analysis.study.groups[most].name +
+           (analysis.slope.lawRejected ? ", over all sizes" : "") + "). The headline, of " +
+           analysis.slope.worstGroup +
+           (analysis.slope.lawRejected ? " at its worst size, "
+                                       : " and corrected for being the largest of noisy ones, ") +
+           "serves all of them at the criterion; where only the easier ones occur, their own c is "
+           "enough.";
 }
 
 std::string factorFinding(const FactorTest& factor) {
@@ -120,7 +133,8 @@ std::string observerFinding(const SlopeAnalysis& analysis) {
         ": with the headline's c, half of all observers see more than the criterion says; with "
         "this one, one in ten.";
     if (law.tauAtZero) {
-        return "No difference between observers was found beyond chance. " + c90;
+        return "No difference between observers was found beyond chance, so that c for the "
+               "90th-percentile observer is the headline's.";
     }
     std::string text = "Their slopes scatter by a factor of " +
                        fixedText(std::pow(10.0, law.parameters.tau), 2) + " (sd " +
@@ -166,10 +180,9 @@ std::string halvesFinding(const SlopeAnalysis& analysis) {
     }
     return tested +
            (shift.value > 0
-                ? "They learned to see the artifact: c is a mean over the learning, and too small "
-                  "for practised eyes."
-                : "This speaks for fatigue: c is a mean over it, and too small for "
-                  "fresh eyes.");
+                ? "They may have learned to see the artifact: then c is a mean over the learning, "
+                  "and too small for practised eyes."
+                : "They may have tired: then c is a mean over it, and too small for fresh eyes.");
 }
 
 std::string dispersionFinding(const SlopeAnalysis& analysis) {
@@ -179,11 +192,13 @@ std::string dispersionFinding(const SlopeAnalysis& analysis) {
                               fixedText(spread.ratio(), 2) + " where the model has 1 (" +
                               pValueText(spread.pValue) + "). ";
     if (spread.pValue >= kLevel) {
-        return found + "The answers scatter no more than the model says: its intervals stand.";
+        return found + "That the answers scatter more than the model says is not demonstrable.";
     }
     return found +
-           "The answers scatter more than the model says: its intervals are somewhat too short. "
-           "Look at the psychometric functions and the residuals for where.";
+           "The answers scatter more than the model says: its intervals are too short, by a "
+           "factor of about " +
+           fixedText(std::sqrt(std::max(1.0, spread.ratio())), 1) +
+           ". Look at the psychometric functions and the residuals for where.";
 }
 
 std::string staircaseFinding(const SlopeAnalysis& analysis) {
@@ -233,15 +248,47 @@ std::string bootstrapFinding(const SlopeAnalysis& analysis) {
            "]. It assumes no distribution of observers, and is too short with few of them.";
 }
 
+// In yes/no an observer without reference trials is left out; in 2AFC catch trials may be missing.
+bool couldBeScreened(const SlopeAnalysis& analysis) {
+    return analysis.study.task == records::Task::yesNo ||
+           std::any_of(analysis.screening.begin(), analysis.screening.end(),
+                       [](const ScreenedObserver& row) { return row.catchTrials > 0; });
+}
+
+// Observers whose answers look like guesses; no rule leaves them out.
+std::vector<std::string> nearGuessing(const SlopeAnalysis& analysis) {
+    std::vector<std::string> found;
+    if (analysis.study.task != records::Task::twoAfc) return found;
+    for (const Observer& observer : analysis.study.observers) {
+        int trials = 0, yes = 0;
+        for (const Cell& cell : observer.cells) {
+            trials += static_cast<int>(cell.trials.size());
+            for (const StudyTrial& trial : cell.trials) yes += trial.yes ? 1 : 0;
+        }
+        if (yes < kNearGuessing * trials) {
+            found.push_back(observer.id + " (" + percentText(static_cast<double>(yes) / trials) +
+                            " right)");
+        }
+    }
+    return found;
+}
+
 std::string screeningFinding(const SlopeAnalysis& analysis) {
     std::vector<std::string> excluded;
     for (const ScreenedObserver& row : analysis.screening) {
         if (row.excluded) excluded.push_back(row.id + " (" + row.reason + ")");
     }
-    if (excluded.empty()) {
-        return analysis.options.screening.apply ? "Every observer passed." : "Switched off.";
-    }
-    std::string text = "Left out: " + listed(excluded, "screening.tsv") + ".";
+    const ScreeningRules& rules = analysis.options.screening;
+    if (!rules.apply) return "Switched off.";
+    if (!couldBeScreened(analysis)) return "Nobody could be screened: there are no catch trials.";
+    std::string text = analysis.study.task == records::Task::yesNo
+                           ? "Left out is whose false-alarm rate has a lower 95 % bound above " +
+                                 shortText(100 * rules.limits.falseAlarmRate) + " %"
+                           : "Left out is who fails more than " +
+                                 shortText(100 * rules.limits.catchFailureShare) +
+                                 " % of the catch trials";
+    if (excluded.empty()) return text + ": nobody.";
+    text += ": " + listed(excluded, "screening.tsv") + ".";
     if (analysis.everyone) {
         const SlopeResult& all = *analysis.everyone;
         text += " With everyone c would be " + slopeText(all.headline.value, all.headline.ci95) +
@@ -364,6 +411,18 @@ std::vector<std::string> warnings(const SlopeAnalysis& analysis) {
         sentences.push_back("The law r = c a is rejected (" +
                             pValueText(analysis.slope.kappaTest->pValue) +
                             "): c holds for the sizes that were measured, not beyond.");
+    }
+    if (analysis.fitCheck.dispersion && analysis.fitCheck.dispersion->pValue < kLevel &&
+        analysis.fitCheck.dispersion->ratio() > kMisfit) {
+        sentences.push_back(dispersionFinding(analysis));
+    }
+    if (analysis.options.screening.apply && !couldBeScreened(analysis)) {
+        sentences.push_back(
+            "No catch trials: nobody could be screened, and whoever guesses makes c too small.");
+    }
+    if (const auto guessing = nearGuessing(analysis); !guessing.empty()) {
+        sentences.push_back("Answers that look like guesses: " + listed(guessing, "observers.tsv") +
+                            ". No rule leaves them out; see what c is without them.");
     }
     std::vector<std::string> flagged;
     for (std::size_t g = 0; g < analysis.groups.size(); ++g) {

@@ -33,6 +33,7 @@ struct Options {
     std::vector<std::string> by;
     int bootstrap = 0;
     bool noScreening = false, timing = false;
+    std::optional<double> falseAlarmRate, catchFailureShare;
     // --coverage:
     std::string design, observer = "simulated";
     int observers = 10, studies = 100, guessing = 0, threads = 0;
@@ -83,6 +84,10 @@ void fit(const Options& options, std::vector<std::string> command) {
     analysis::AnalysisOptions settings;
     settings.criterion = options.criterion;
     settings.screening.apply = !options.noScreening;
+    analysis::ScreeningLimits& limits = settings.screening.limits;
+    limits = study.screening.value_or(limits);
+    limits.falseAlarmRate = options.falseAlarmRate.value_or(limits.falseAlarmRate);
+    limits.catchFailureShare = options.catchFailureShare.value_or(limits.catchFailureShare);
     settings.bootstrap = options.bootstrap;
     std::optional<program::Progress> draws;
     if (options.bootstrap > 0) {
@@ -200,6 +205,13 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(20, 100000));
     app.add_flag("--no-screening", options.noScreening,
                  "Fit every observer, whatever the rules say");
+    app.add_option("--false-alarm-rate", options.falseAlarmRate,
+                   "Yes/no: leave out whose lower 95 % bound is above (default: the design's, .10)")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--catch-failures", options.catchFailureShare,
+                   "2AFC: leave out who fails a larger share of the catch trials (default: the "
+                   "design's, .20)")
+        ->check(CLI::Range(0.0, 1.0));
     app.add_flag("--timing", options.timing, "Print where the time went, and the peak memory");
     addCoverageOptions(app, options);
     std::vector<std::string> command(argv, argv + argc);

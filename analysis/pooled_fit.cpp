@@ -13,10 +13,13 @@ namespace {
 // Below it the root's derivative would overflow: an answer this certain (ln P = -5e-13) says
 // nothing more.
 constexpr double kRootFloor = 1e-12;
+// And above it -ln P itself would: an answer this unlikely says nothing more either.
+constexpr double kMostSurprise = 600;
 
 template <typename T>
 T deviance(const T& negativeLog) {
     using std::sqrt;
+    if (!(negativeLog < kMostSurprise)) return T(sqrt(2 * kMostSurprise));
     const T squared = 2.0 * negativeLog;
     return squared > kRootFloor ? T(sqrt(squared)) : T(sqrt(kRootFloor));
 }
@@ -195,7 +198,8 @@ PooledFit fitPooled(const Model& model, const ModelParameters& start) {
     fit.lapseAtBound = at.lapse <= 2 * kLapseFloor || at.lapse >= kLapseLimit * (1 - 1e-9);
     fit.logLikelihood = -summary.final_cost;
     fit.iterations = static_cast<int>(summary.iterations.size());
-    fit.covariance = frozenWeightCovariance(model, at, fit.lapseAtBound);
+    if (summary.IsSolutionUsable())
+        fit.covariance = frozenWeightCovariance(model, at, fit.lapseAtBound);
     return fit;
 }
 

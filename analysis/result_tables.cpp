@@ -428,16 +428,34 @@ TextTable screeningReport(const SlopeAnalysis& analysis) {
     return table;
 }
 
+// c never stands without what it was measured as: the same in every row, for tables that are read
+// apart from slope.json.
+TextTable withTerms(TextTable table, const SlopeAnalysis& analysis) {
+    const Study& study = analysis.study;
+    std::string betas;
+    for (const double beta : analysis.slope.law.parameters.beta) {
+        betas += (betas.empty() ? "" : ",") + full(beta);
+    }
+    const Row terms = {
+        full(analysis.options.criterion), std::string(records::toText(study.task)), study.kernel,
+        study.encoding ? std::string(records::toText(*study.encoding)) : "n/a", betas};
+    for (const char* name : {"fit_criterion", "task", "kernel", "encoding", "fit_beta"}) {
+        table.head.emplace_back(name);
+    }
+    for (Row& row : table.rows) row.insert(row.end(), terms.begin(), terms.end());
+    return table;
+}
+
 }  // namespace
 
 std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
-    return {groupFile(analysis),
-            conditionFile(analysis, reference),
-            thresholdFile(analysis),
-            observerFile(analysis),
-            estimatorFile(analysis),
+    return {withTerms(groupFile(analysis), analysis),
+            withTerms(conditionFile(analysis, reference), analysis),
+            withTerms(thresholdFile(analysis), analysis),
+            withTerms(observerFile(analysis), analysis),
+            withTerms(estimatorFile(analysis), analysis),
             betaTable(analysis, false),
-            audienceTable(analysis, false),
+            withTerms(audienceTable(analysis, false), analysis),
             screeningTable(analysis)};
 }
 

@@ -47,17 +47,18 @@ std::string brokenRule(const ScreenedObserver& row, records::Task task,
                        const ScreeningRules& rules) {
     if (task == records::Task::yesNo) {
         if (row.references == 0) return "no reference trial, so the false-alarm rate is unknown";
-        if (row.falseAlarmLowerBound > rules.falseAlarmRate) {
+        if (row.falseAlarmLowerBound > rules.limits.falseAlarmRate) {
             return std::to_string(row.falseAlarms) + " false alarms in " +
                    std::to_string(row.references) + " reference trials: lower " +
                    percent(rules.falseAlarmConfidence) + " bound " +
-                   percent(row.falseAlarmLowerBound) + ", limit " + percent(rules.falseAlarmRate);
+                   percent(row.falseAlarmLowerBound) + ", limit " +
+                   percent(rules.limits.falseAlarmRate);
         }
         return "";
     }
-    if (row.catchFailures > rules.catchFailureShare * row.catchTrials) {
+    if (row.catchFailures > rules.limits.catchFailureShare * row.catchTrials) {
         return std::to_string(row.catchFailures) + " of " + std::to_string(row.catchTrials) +
-               " catch trials failed, limit " + percent(rules.catchFailureShare);
+               " catch trials failed, limit " + percent(rules.limits.catchFailureShare);
     }
     return "";
 }

@@ -18,10 +18,9 @@
 namespace analysis {
 
 struct ScreeningRules {
-    bool apply = true;             ///< off: everyone enters, the table is still made
-    double falseAlarmRate = 0.10;  ///< that the lower bound may reach
+    bool apply = true;  ///< off: everyone enters, the table is still made
+    ScreeningLimits limits = {};
     double falseAlarmConfidence = 0.95;
-    double catchFailureShare = 0.20;
 };
 
 struct ScreenedObserver {

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "analysis/factors.h"
+#include "records/json_fields.h"
 #include "records/session_sidecar.h"
 
 namespace analysis {
@@ -158,6 +159,8 @@ std::map<ConditionKey, double> settleFrameSizes(Gathered& gathered) {
     return sizes;
 }
 
+constexpr double kMostLog10Ratio = 4;  // |log10(r/a)|: a slip of the pen, not a stimulus
+
 void gather(const TrialTable& table, const std::vector<std::string>& factors, Gathered& into,
             std::vector<std::string>& notices) {
     LeftOut leftOut;
@@ -193,6 +196,10 @@ void gather(const TrialTable& table, const std::vector<std::string>& factors, Ga
         }
         if (!(trial.litLevel > 0)) {
             leftOut.add("lit level 0 shows no edge");
+            continue;
+        }
+        if (!(std::abs(std::log10(trial.filterRadiusPx / trial.artifactPx)) <= kMostLog10Ratio)) {
+            leftOut.add("no display shows such a radius beside such an artifact (r/a beyond 1e4)");
             continue;
         }
         const bool catchTrial = !yesNo && staircases && !trial.staircase;
@@ -342,21 +349,36 @@ void refuseMixedDesigns(std::span<const TrialTable> tables, const Sidecars& side
     }
 }
 
+// Absent in a design from elsewhere.
+std::optional<ScreeningLimits> screeningOf(const nlohmann::json& design, const std::string& file) {
+    if (!design.is_object() || !design.contains("screening")) return std::nullopt;
+    const records::JsonFields fields(design["screening"], file, "stairwell.design.screening");
+    return ScreeningLimits{fields.number("false_alarm_rate", records::between(0, 1)),
+                           fields.number("catch_failure_share", records::between(0, 1))};
+}
+
 // What the sidecars say, as far as every table has one.
-void addFromSidecars(const Sidecars& sidecars, Study& study) {
+void addFromSidecars(std::span<const TrialTable> tables, const Sidecars& sidecars, Study& study) {
     double sum = 0;
     bool everyGeometry = true;
     std::vector<StaircaseTerms> terms;
-    for (const auto& sidecar : sidecars) {
+    std::vector<std::optional<ScreeningLimits>> limits;
+    for (std::size_t t = 0; t < sidecars.size(); ++t) {
+        const auto& sidecar = sidecars[t];
         if (!sidecar) return;
         everyGeometry = everyGeometry && sidecar->pxPerDeg;
         sum += sidecar->pxPerDeg.value_or(0);
         terms.push_back({sidecar->criterion, sidecar->beta});
+        limits.push_back(
+            screeningOf(sidecar->design, records::sidecarPath(tables[t].file).string()));
     }
     if (everyGeometry) study.pxPerDeg = sum / static_cast<double>(sidecars.size());
     const bool equal = std::all_of(terms.begin(), terms.end(),
                                    [&](const StaircaseTerms& one) { return one == terms.front(); });
     if (equal) study.staircases = terms.front();
+    const bool sameLimits = std::all_of(limits.begin(), limits.end(),
+                                        [&](const auto& one) { return one == limits.front(); });
+    if (sameLimits) study.screening = limits.front();
 }
 
 }  // namespace
@@ -377,10 +399,13 @@ Study studyOf(std::span<const TrialTable> tables, std::span<const std::string> b
     study.notices.insert(study.notices.begin(), notices.begin(), notices.end());
     if (study.observers.empty()) {
         const std::string first = tables.empty() ? "" : tables.front().file.string() + ": ";
+        std::string why;
+        for (const std::string& notice : study.notices) why += "; " + notice;
         throw std::runtime_error(first + std::to_string(tables.size()) +
                                  (tables.size() == 1 ? " table" : " tables") +
                                  " without a trial to fit: at least one artifact trial with status "
-                                 "ok is needed");
+                                 "ok is needed" +
+                                 why);
     }
     study.task = *records::taskFromText(task);
     for (const Group& group : study.groups) {
@@ -411,7 +436,7 @@ Study loadStudy(std::span<const std::filesystem::path> paths, std::span<const st
     if (!isFactor(factors, "design")) refuseMixedDesigns(tables, sidecars);
     addFactorColumns(tables, sidecars, factors);
     Study study = studyOf(tables, factors);
-    addFromSidecars(sidecars, study);
+    addFromSidecars(tables, sidecars, study);
     return study;
 }
 

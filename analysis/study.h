@@ -68,6 +68,12 @@ struct StaircaseTerms {
     bool operator==(const StaircaseTerms&) const = default;
 };
 
+/// Who is left out, as the design fixed it before anybody had answered; screening.h has the rules.
+struct ScreeningLimits {
+    double falseAlarmRate = 0.10, catchFailureShare = 0.20;
+    bool operator==(const ScreeningLimits&) const = default;
+};
+
 struct Study {
     std::vector<Group> groups;          ///< by pattern, angle, falling lit level
     std::vector<Condition> conditions;  ///< by group, artifact size
@@ -78,6 +84,7 @@ struct Study {
     std::optional<records::Encoding> encoding;  ///< absent where no table says it or groups differ
     std::optional<double> pxPerDeg;             ///< mean over sessions, where every sidecar has it
     std::optional<StaircaseTerms> staircases;   ///< where every sidecar says the same
+    std::optional<ScreeningLimits> screening;  ///< of the design, where every sidecar says the same
     std::vector<std::filesystem::path> files;
     std::vector<std::string> notices;  ///< what was left out, and why
 };

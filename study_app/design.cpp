@@ -201,6 +201,16 @@ std::string checkTrials(const Design& d) {
         !found.empty()) {
         return found;
     }
+    if (auto found = broken("screening.false_alarm_rate", d.screening.falseAlarmRate,
+                            records::between(0, 1));
+        !found.empty()) {
+        return found;
+    }
+    if (auto found = broken("screening.catch_failure_share", d.screening.catchFailureShare,
+                            records::between(0, 1));
+        !found.empty()) {
+        return found;
+    }
     if (auto found = broken("catch_share", d.catchShare, records::between(0, 0.5));
         !found.empty()) {
         return found;

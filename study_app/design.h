@@ -56,6 +56,13 @@ struct Roving {
     bool operator==(const Roving&) const = default;
 };
 
+/// Who is left out of the fit, fixed before anybody has answered (METHODS section 5).
+struct ScreeningLimits {
+    double falseAlarmRate = 0.10;     ///< yes/no: that the lower 95 % bound may reach, [0, 1]
+    double catchFailureShare = 0.20;  ///< 2AFC: of the catch trials, [0, 1]
+    bool operator==(const ScreeningLimits&) const = default;
+};
+
 /// The false-alarm rate that staircases assume in yes/no where a design gives none: careful
 /// observers have 1 to 6 %. Presets keep their criterion there.
 inline constexpr double kYesNoGamma = 0.05;
@@ -88,6 +95,7 @@ struct Design {
     RadiusLimits radius;
     Roving roving;
     Presentation presentation;
+    ScreeningLimits screening;
     /// Then the rest that describes an edge is empty or at its default, and windowPx is the edge of
     /// the frames.
     std::optional<FrameSet> frames = {};

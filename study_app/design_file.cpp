@@ -131,6 +131,18 @@ RadiusLimits readRadius(const JsonFields& design, int windowPx) {
     return limits;
 }
 
+ScreeningLimits readScreening(const JsonFields& design) {
+    ScreeningLimits limits;
+    if (const auto fields = design.optionalObject("screening")) {
+        limits.falseAlarmRate =
+            fields->optionalNumber("false_alarm_rate").value_or(limits.falseAlarmRate);
+        limits.catchFailureShare =
+            fields->optionalNumber("catch_failure_share").value_or(limits.catchFailureShare);
+        fields->noOtherFields();
+    }
+    return limits;
+}
+
 Roving readRoving(const JsonFields& design, Roving roving) {
     if (!design.has("roving")) return roving;
     if (design.any("roving").is_boolean()) {
@@ -268,6 +280,7 @@ Design designFromJson(const json& value, const std::string& where, const fs::pat
     if (fields.has("presentation")) {
         d.presentation = presentationFromJson(fields.any("presentation"), where, "presentation");
     }
+    d.screening = readScreening(fields);
     fields.noOtherFields();
     if (const std::string found = validate(d); !found.empty()) {
         throw std::runtime_error(where + ": field " + found);
@@ -300,7 +313,10 @@ ordered_json normalisedJson(const Design& d) {
                                {"quarter_turn", d.roving.quarterTurn},
                                {"mirror", d.roving.mirror},
                                {"tilt", d.roving.tilt}}},
-                             {"presentation", presentationJson(d.presentation)}});
+                             {"presentation", presentationJson(d.presentation)},
+                             {"screening",
+                              {{"false_alarm_rate", d.screening.falseAlarmRate},
+                               {"catch_failure_share", d.screening.catchFailureShare}}}});
     return text;
 }
 

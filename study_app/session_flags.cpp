@@ -48,10 +48,11 @@ std::vector<ConditionResult> conditionResults(const Session& session) {
 
 CatchResult catchResult(const Session& session) {
     CatchResult r{.answered = session.catchAnswered(), .failed = session.catchFailed()};
+    const ScreeningLimits& limits = session.design().screening;
     r.lowerBound = wilsonLowerBound(r.failed, r.answered);
     r.flagged = session.design().task == records::Task::twoAfc
-                    ? r.failed > kCatchFailures2afc * r.answered
-                    : r.lowerBound > kFalseAlarmBound;
+                    ? r.failed > limits.catchFailureShare * r.answered
+                    : r.lowerBound > limits.falseAlarmRate;
     return r;
 }
 

@@ -16,8 +16,6 @@ inline constexpr double kLimitShare = 0.3;
 /// Posterior sd, log10 units, above which a staircase has not converged: its 95 % interval is then
 /// wider than a factor of 2 to either side.
 inline constexpr double kConvergedSd = 0.15;
-/// METHODS section 5: catch failures in 2AFC, lower 95 % bound of the false alarms in yes/no.
-inline constexpr double kCatchFailures2afc = 0.20, kFalseAlarmBound = 0.10;
 
 struct ConditionResult {
     Threshold threshold;

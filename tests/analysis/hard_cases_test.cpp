@@ -96,6 +96,15 @@ TEST(HardCases, ARadiusFarOffTheOthersChangesLittle) {
     EXPECT_NEAR(result.slope.headline.value, before, 0.3);
 }
 
+TEST(HardCases, ARadiusThatNoDisplayShowsIsLeftOutWithANotice) {
+    for (const char* value : {"1e-300", "1e-90", "1e300"}) {
+        const HardCase study;
+        study.set("filter_radius_px", 5, value);
+        const fs::path paths[] = {study.folder().path()};
+        EXPECT_THAT(loadStudy(paths).notices, Contains(HasSubstr("r/a beyond 1e4"))) << value;
+    }
+}
+
 TEST(HardCases, TrialNumbersThatStandTwiceAreLocated) {
     const HardCase study;
     study.set("trial", 5, "4");

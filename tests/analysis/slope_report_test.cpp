@@ -220,7 +220,7 @@ TEST(MethodParagraph, FollowsTheOptions) {
     EXPECT_THAT(all, HasSubstr("kappa = 1"));
     EXPECT_THAT(all, HasSubstr("pooled maximum likelihood"));
     EXPECT_THAT(all, HasSubstr("guessing at .5"));
-    EXPECT_THAT(all, HasSubstr("Every observer passed"));
+    EXPECT_THAT(all, HasSubstr("Nobody could be screened: there are no catch trials"));
     EXPECT_THAT(all, Not(HasSubstr("a bootstrap over observers")));
 
     analysis::AnalysisOptions options;
