@@ -199,6 +199,8 @@ TEST(Warnings, TellWhereTheLapseRateEndedOnItsUpperBoundNotOnItsFloor) {
         tests::simulateStudy({.observers = 4, .groups = {{}}, .sizes = {10, 20}}, 8), options);
     result.slope.law.lapseAtBound = true;
     result.slope.law.parameters.lapse = analysis::kLapseFloor;
+    EXPECT_THAT(warnings(result), testing::ElementsAre(HasSubstr("No catch trials")));
+    result.options.screening.apply = false;  // then nobody expects any
     EXPECT_THAT(warnings(result), testing::IsEmpty());
     result.slope.law.parameters.lapse = analysis::kLapseLimit;
     EXPECT_THAT(warnings(result), testing::ElementsAre(HasSubstr("upper bound, 15 %")));
