@@ -434,7 +434,8 @@ TextTable withTerms(TextTable table, const SlopeAnalysis& analysis) {
     const Study& study = analysis.study;
     std::string betas;
     for (const double beta : analysis.slope.law.parameters.beta) {
-        betas += (betas.empty() ? "" : ",") + full(beta);
+        if (!betas.empty()) betas += ',';
+        betas += full(beta);
     }
     const Row terms = {
         full(analysis.options.criterion), std::string(records::toText(study.task)), study.kernel,

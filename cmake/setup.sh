@@ -48,14 +48,14 @@ installPackages() {
 
 # Runs a command without its chatter, and shows the chatter when it fails.
 quietly() {
-    local what=$1 log status
+    local what=$1 log status=0
     shift
     log=$(mktemp)
-    if "$@" >"$log" 2>&1; then
+    "$@" >"$log" 2>&1 || status=$?
+    if [ "$status" -eq 0 ]; then
         rm -f "$log"
         return 0
     fi
-    status=$?
     cat "$log" >&2
     rm -f "$log"
     die "$what failed with exit code $status, see above"
