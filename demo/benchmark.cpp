@@ -118,7 +118,7 @@ std::vector<renderer::Scene> chosenScenes(const BenchmarkSettings& settings) {
     for (const std::string& name : settings.scenes) chosen.push_back(renderer::makeScene(name));
     if (settings.scenes.empty())
         for (const renderer::SceneEntry& entry : renderer::builtInScenes())
-            chosen.push_back(entry.make());
+            chosen.push_back(renderer::makeScene(entry.name));
     return chosen;
 }
 

@@ -55,8 +55,8 @@ void listTechniques() {
 
 void listScenes() {
     for (const renderer::SceneEntry& entry : renderer::builtInScenes())
-        std::printf("%s\t%s\n", std::string(entry.name).c_str(),
-                    std::string(entry.description).c_str());
+        std::printf("%s\t%s: %s\n", std::string(entry.name).c_str(),
+                    std::string(entry.description).c_str(), std::string(entry.purpose).c_str());
 }
 
 void setParameters(const std::vector<std::string>& texts, demo::ViewerState& state) {

@@ -55,15 +55,15 @@ void Viewer::apply(const ViewerState& state) {
         slope_ = loadSlope(slopeFile_, state.audience);
         slopeFor_ = state.audience;
     }
-    if (state.scene != frame_.scene().name) {
+    if (state.scene != frame_.scene().source) {
         renderer::Scene scene = renderer::makeScene(state.scene);
         sceneCamera_ = scene.camera;
         sceneSun_ = scene.sun;
         frame_.setScene(std::move(scene));
         cut_ = true;
     }
-    frame_.setCamera(cameraOf(state, sceneCamera_));
-    frame_.setSun(sunOf(state, sceneSun_));
+    frame_.setCamera(cameraOf(state, sceneCamera_, frame_.scene().cameraPath));
+    frame_.setSun(sunOf(state, sceneSun_, frame_.scene().sunPath));
     softness_ = chooseSoftness(frame_, state.radiusM, state.radiusUv);
     if (run_) run_->change(settingsOf(state, state.resolution));
 }
@@ -93,7 +93,7 @@ void Viewer::drawOther() {
         otherFrame_->widthPx() == frame_.widthPx() && otherFrame_->heightPx() == frame_.heightPx();
     if (otherShows_ == state_ && sameSize) return;  // a still view: it is often the slower frame
     otherFrame_->resize(frame_.widthPx(), frame_.heightPx());
-    if (otherFrame_->scene().name != state_.scene)
+    if (otherFrame_->scene().source != state_.scene)
         otherFrame_->setScene(renderer::makeScene(state_.scene));
     otherFrame_->setCamera(frame_.scene().camera);
     otherFrame_->setSun(frame_.scene().sun);

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kSmallestFixed = 128;  // key 1; each further digit doubles it
 constexpr float kLeastGain = 1, kMostGain = 64;
 constexpr float kLeastAngleDeg = 2, kMostAngleDeg = 88;
-constexpr float kLeastDistanceM = 1.5F, kMostDistanceM = 40;
+constexpr float kLeastDistance = 0.2F, kMostDistance = 6;  // of the scene's own
 constexpr std::array<std::pair<std::string_view, Path>, 3> kPathWords = {
     {{"still", Path::still}, {"camera", Path::camera}, {"sun", Path::sun}}};
 constexpr const char* kSchema = "stairwell-viewer-state 1.0";
@@ -201,26 +201,28 @@ renderer::ParameterValues parametersOf(const ViewerState& state) {
                : renderer::findTechnique(state.technique).standardParameters();
 }
 
-renderer::OrbitCamera cameraOf(const ViewerState& state, const renderer::OrbitCamera& own) {
-    renderer::OrbitCamera camera = own;
-    camera.yawDeg = state.cameraYawDeg.value_or(camera.yawDeg);
-    if (state.path == Path::camera) camera.yawDeg += 360 * static_cast<float>(state.pathPlace);
-    camera.yawDeg = std::remainder(camera.yawDeg, 360.0F);
-    if (state.cameraPitchDeg)
-        camera.pitchDeg = std::clamp(*state.cameraPitchDeg, kLeastAngleDeg, kMostAngleDeg);
-    if (state.cameraDistanceM)
-        camera.distanceM = std::clamp(*state.cameraDistanceM, kLeastDistanceM, kMostDistanceM);
-    return camera;
+float zoomed(float distanceM, float factor, const renderer::OrbitCamera& own) {
+    return std::clamp(distanceM * factor, kLeastDistance * own.distanceM,
+                      kMostDistance * own.distanceM);
 }
 
-renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own) {
+renderer::OrbitCamera cameraOf(const ViewerState& state, const renderer::OrbitCamera& own,
+                               const renderer::CameraPath& path) {
+    renderer::OrbitCamera camera = own;
+    camera.yawDeg = std::remainder(state.cameraYawDeg.value_or(camera.yawDeg), 360.0F);
+    if (state.cameraPitchDeg)
+        camera.pitchDeg = std::clamp(*state.cameraPitchDeg, kLeastAngleDeg, kMostAngleDeg);
+    if (state.cameraDistanceM) camera.distanceM = zoomed(*state.cameraDistanceM, 1, own);
+    return state.path == Path::camera ? along(path, camera, state.pathPlace) : camera;
+}
+
+renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own,
+                    const renderer::SunPath& path) {
     renderer::Sun sun = own;
-    sun.azimuthDeg = state.sunAzimuthDeg.value_or(sun.azimuthDeg);
-    if (state.path == Path::sun) sun.azimuthDeg += 360 * static_cast<float>(state.pathPlace);
-    sun.azimuthDeg = std::remainder(sun.azimuthDeg, 360.0F);
+    sun.azimuthDeg = std::remainder(state.sunAzimuthDeg.value_or(sun.azimuthDeg), 360.0F);
     if (state.sunElevationDeg)
         sun.elevationDeg = std::clamp(*state.sunElevationDeg, kLeastAngleDeg, kMostAngleDeg);
-    return sun;
+    return state.path == Path::sun ? along(path, sun, state.pathPlace) : sun;
 }
 
 renderer::View parseView(const std::string& word, const std::string& option) {

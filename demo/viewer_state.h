@@ -53,10 +53,15 @@ ViewerState readViewerState(const std::filesystem::path& file);
 void writeViewerState(const std::filesystem::path& file, const ViewerState& state);
 
 renderer::ParameterValues parametersOf(const ViewerState& state);
-/// Camera and sun as the state has them, path included. Pitch and elevation stay over the horizon.
-/// `own` is what the scene itself has.
-renderer::OrbitCamera cameraOf(const ViewerState& state, const renderer::OrbitCamera& own);
-renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own);
+/// Camera and sun as the state has them, on the scene's paths where it plays one. Pitch and
+/// elevation stay over the horizon. `own` is what the scene itself has.
+renderer::OrbitCamera cameraOf(const ViewerState& state, const renderer::OrbitCamera& own,
+                               const renderer::CameraPath& path);
+renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own,
+                    const renderer::SunPath& path);
+
+/// A camera's distance, nearer or farther by a factor, within what suits the scene's own camera.
+float zoomed(float distanceM, float factor, const renderer::OrbitCamera& own);
 
 /// A word of the command line. Throws std::invalid_argument that names `option` and lists the
 /// words.

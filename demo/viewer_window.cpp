@@ -67,20 +67,20 @@ class Mouse {
         if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) held_ = Held::nothing;
         if (held_ == Held::line)
             state.splitAt = std::clamp(io.MousePos.x / io.DisplaySize.x, 0.0F, 1.0F);
-        const renderer::OrbitCamera& camera = viewer.frame().scene().camera;
+        const renderer::OrbitCamera& own = viewer.sceneCamera();
         const bool turned = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
         if (held_ == Held::scene && turned) {
             // The path's share stays with the path.
-            state.cameraYawDeg =
-                std::remainder(state.cameraYawDeg.value_or(viewer.sceneCamera().yawDeg) -
-                                   kDegreesPerPx * io.MouseDelta.x,
-                               360.0F);
+            state.cameraYawDeg = std::remainder(
+                state.cameraYawDeg.value_or(own.yawDeg) - kDegreesPerPx * io.MouseDelta.x, 360.0F);
             state.cameraPitchDeg =
-                std::clamp(camera.pitchDeg + kDegreesPerPx * io.MouseDelta.y, 2.0F, 88.0F);
+                std::clamp(state.cameraPitchDeg.value_or(own.pitchDeg) +
+                               kDegreesPerPx * io.MouseDelta.y,
+                           2.0F, 88.0F);
         }
         if (overPicture && io.MouseWheel != 0)
-            state.cameraDistanceM =
-                std::clamp(camera.distanceM * std::pow(0.9F, io.MouseWheel), 1.5F, 40.0F);
+            state.cameraDistanceM = zoomed(state.cameraDistanceM.value_or(own.distanceM),
+                                           std::pow(0.9F, io.MouseWheel), own);
         if (nearLine(state) && overPicture) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     }
 

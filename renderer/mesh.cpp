@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -48,7 +49,44 @@ Mesh transformed(Mesh mesh, const glm::mat4& matrix) {
     return mesh;
 }
 
+Mesh split(const Mesh& mesh, int parts) {
+    Mesh fine;
+    const auto n = static_cast<std::uint32_t>(parts);
+    fine.vertices.reserve(mesh.indices.size() / 3 * (n + 1) * (n + 2) / 2);
+    fine.indices.reserve(mesh.indices.size() * n * n);
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+        const Vertex& a = mesh.vertices[mesh.indices[t]];
+        const Vertex& b = mesh.vertices[mesh.indices[t + 1]];
+        const Vertex& c = mesh.vertices[mesh.indices[t + 2]];
+        const auto base = static_cast<std::uint32_t>(fine.vertices.size());
+        // Row i runs across the triangle, i + 1 vertices from side ab to side ac.
+        const auto at = [&](std::uint32_t i, std::uint32_t j) { return base + i * (i + 1) / 2 + j; };
+        for (std::uint32_t i = 0; i <= n; ++i)
+            for (std::uint32_t j = 0; j <= i; ++j) {
+                const float u = static_cast<float>(i - j) / static_cast<float>(n);
+                const float v = static_cast<float>(j) / static_cast<float>(n);
+                fine.vertices.push_back(
+                    {a.position + u * (b.position - a.position) + v * (c.position - a.position),
+                     glm::normalize((1 - u - v) * a.normal + u * b.normal + v * c.normal)});
+            }
+        for (std::uint32_t i = 0; i < n; ++i)
+            for (std::uint32_t j = 0; j <= i; ++j) {
+                for (const std::uint32_t index : {at(i, j), at(i + 1, j), at(i + 1, j + 1)})
+                    fine.indices.push_back(index);
+                if (j == i) continue;
+                for (const std::uint32_t index : {at(i, j), at(i + 1, j + 1), at(i, j + 1)})
+                    fine.indices.push_back(index);
+            }
+    }
+    return fine;
+}
+
 Mesh groundPlane(float halfExtent, int cells, float height) {
+    return heightField(halfExtent, cells, [height](float, float) { return height; });
+}
+
+Mesh heightField(float halfExtent, int cells,
+                 const std::function<float(float x, float z)>& height) {
     Mesh mesh;
     const auto edge = static_cast<std::uint32_t>(cells) + 1;
     for (std::uint32_t z = 0; z < edge; ++z)
@@ -56,7 +94,12 @@ Mesh groundPlane(float halfExtent, int cells, float height) {
             const auto along = [&](std::uint32_t i) {
                 return halfExtent * (2 * static_cast<float>(i) / static_cast<float>(cells) - 1);
             };
-            mesh.vertices.push_back({{along(x), height, along(z)}, {0, 1, 0}});
+            const float px = along(x);
+            const float pz = along(z);
+            const float step = halfExtent / static_cast<float>(cells);
+            const glm::vec3 normal(height(px - step, pz) - height(px + step, pz), 2 * step,
+                                   height(px, pz - step) - height(px, pz + step));
+            mesh.vertices.push_back({{px, height(px, pz), pz}, glm::normalize(normal)});
         }
     for (std::uint32_t z = 0; z + 1 < edge; ++z)
         for (std::uint32_t x = 0; x + 1 < edge; ++x) {
@@ -121,6 +164,28 @@ Mesh cylinder(glm::vec3 bottomCentre, float radius, float height, int slices) {
         }
         mesh.append(cap);
     }
+    return mesh;
+}
+
+Mesh lathe(glm::vec3 foot, const std::vector<glm::vec2>& profile, int slices) {
+    Mesh mesh;
+    const auto row = static_cast<std::uint32_t>(slices) + 1;
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const glm::vec2 along =
+            profile[std::min(i + 1, profile.size() - 1)] - profile[i == 0 ? 0 : i - 1];
+        const glm::vec2 across = glm::normalize(glm::vec2(-along.y, along.x));
+        for (int slice = 0; slice <= slices; ++slice) {
+            const float angle =
+                glm::two_pi<float>() * static_cast<float>(slice) / static_cast<float>(slices);
+            mesh.vertices.push_back({foot + onCircle(profile[i].x, angle, profile[i].y),
+                                     onCircle(across.x, angle, across.y)});
+        }
+    }
+    for (std::uint32_t i = 0; i + 1 < profile.size(); ++i)
+        for (std::uint32_t slice = 0; slice + 1 < row; ++slice) {
+            const std::uint32_t corner = i * row + slice;
+            addCell(mesh, corner, corner + 1, corner + row + 1, corner + row);
+        }
     return mesh;
 }
 

@@ -41,13 +41,13 @@ void checkUnit(const std::string& name, float value) {
 }
 
 /// A late-afternoon sky; chosen by eye.
-f32::LookConstants lookOf(const Sun& sun) {
-    return {.sunColour = glm::vec4(sun.colour, 0),
+f32::LookConstants lookOf(const Scene& scene) {
+    return {.sunColour = glm::vec4(scene.sun.colour, 0),
             .zenithColour = {0.13F, 0.33F, 0.85F, 0},
             .horizonColour = {0.72F, 0.86F, 1.05F, 0},
             .skyLight = {0.30F, 0.39F, 0.56F, 0},
             .groundLight = {0.36F, 0.29F, 0.22F, 0},
-            .tone = {0.66F, 60.0F, 0, 0}};
+            .tone = {0.66F, scene.hazeM, 0, 0}};
 }
 
 template <class Block>
@@ -253,7 +253,8 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     const float pixel = 2 * std::tan(verticalField / 2) / height;
 
     view_.clipFromEyeRelative =
-        glm::perspectiveRH_ZO(verticalField, width / height, 0.02F * camera.distanceM, 200.0F) *
+        glm::perspectiveRH_ZO(verticalField, width / height, 0.02F * camera.distanceM,
+                              std::max(200.0F, 40 * camera.distanceM)) *
         glm::lookAtRH(glm::vec3(0), forward, glm::vec3(0, 1, 0));
     view_.eye = glm::vec4(eye, 0);
     view_.pixelRight = glm::vec4(right * pixel, 0);
@@ -280,7 +281,7 @@ void Renderer::updateConstants(const FrameSettings& settings) {
 
     fillUniformBlock(viewBlock_, view_);
     fillUniformBlock(shadowBlock_, shadow_);
-    fillUniformBlock(lookBlock_, lookOf(scene_.sun));
+    fillUniformBlock(lookBlock_, lookOf(scene_));
     bindConstants();
 }
 

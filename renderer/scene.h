@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes: geometry with materials, and the camera, light and softness that show it well. The
-// built-in ones are a table; lengths in metres, y up, the light is the sun.
+// Scenes: geometry with materials, and the camera, light and softness that show it well, with a way
+// on which each of the two can move. The built-in ones are a table; lengths in metres, y up, the
+// light is the sun.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -28,6 +29,7 @@ struct SceneObject {
     std::string name;
     Mesh mesh;
     Material material;
+    bool casts = true;  ///< false: the map's window is not fitted to it (endless grounds)
 };
 
 /// Looks at `target` from a distance. Angles in degrees.
@@ -54,26 +56,55 @@ struct Sun {
     glm::vec3 towards() const;  ///< unit vector to the sun
 };
 
+/// Closed ways: the end is the beginning. `place` is how far along, [0,1), 0 where camera or sun
+/// stand without the path. A turn of 360 goes once round, a smaller one from side to side; swings
+/// go up and down once.
+struct CameraPath {
+    float turnDeg = 360;
+    float pitchSwingDeg = 0;  ///< to either side
+    float distanceSwing = 0;  ///< to either side, as a share of the distance, [0,1)
+};
+struct SunPath {
+    float turnDeg = 360;
+    float elevationSwingDeg = 0;  ///< to either side
+};
+/// Pitch and elevation stay within 2 and 88 degrees where a path takes them beyond.
+OrbitCamera along(const CameraPath& path, const OrbitCamera& start, double place);
+Sun along(const SunPath& path, const Sun& start, double place);
+
 struct Scene {
-    std::string name;
+    std::string name;    ///< fit for a file's name
+    std::string source;  ///< what makeScene() was asked for
     std::vector<SceneObject> objects;
     OrbitCamera camera;
+    CameraPath cameraPath;
     Sun sun;
+    SunPath sunPath;
     Bounds casters;  ///< what throws shadows; the light's window is fitted to it
     double softnessM =
-        0.05;  ///< radius of the shadow's blur, in metres across the light's direction
+        0.05;          ///< radius of the shadow's blur, in metres across the light's direction
+    float hazeM = 60;  ///< distance at which haze takes half of the light
 };
+
+/// Triangles of the objects that cast.
+std::size_t casterTriangles(const Scene& scene);
 
 struct SceneEntry {
     std::string_view name;
     std::string_view description;
-    Scene (*make)();
+    std::string_view purpose;  ///< what it shows, finds out or goes wrong in
+    Scene (*make)();           ///< without name and source: call makeScene()
 };
 
 std::span<const SceneEntry> builtInScenes();
 
-/// Throws std::invalid_argument that lists the known names; so does makeScene().
-const SceneEntry& findScene(std::string_view name);
-Scene makeScene(std::string_view name);
+/// The row of a scene, by its name or a source as makeScene() takes them; the option is not looked
+/// at. Throws std::invalid_argument that lists the known names.
+const SceneEntry& findScene(std::string_view source);
+
+/// A built-in scene by its name, or NAME:triangles=COUNT for the same picture with its casters split
+/// into about as many triangles, from their own number to 4,000,000. Throws std::invalid_argument
+/// for an unknown name or option and a count out of range.
+Scene makeScene(std::string_view source);
 
 }  // namespace renderer

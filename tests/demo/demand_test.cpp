@@ -148,7 +148,7 @@ TEST(DemandPass, HistogramIsTheCpusOnTheSameSurfaces) {
     renderer::DemandPass pass(renderer::ShaderLibrary::embedded(), demo::kDemandGlsl);
     for (const renderer::SceneEntry& scene : renderer::builtInScenes()) {
         // Edges that a group of the pass does not divide.
-        renderer::Renderer frame(gl(), scene.make(), 161, 90);
+        renderer::Renderer frame(gl(), renderer::makeScene(scene.name), 161, 90);
         for (const char* technique : {"hard", "pcf_disc"}) {
             for (const float radius : {0.0005F, 0.01F}) {
                 const renderer::Technique& row = renderer::findTechnique(technique);
