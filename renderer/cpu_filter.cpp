@@ -125,7 +125,7 @@ CpuMap<Real> cpuMap(const Technique& technique, MapView depths, const ConstantsO
     if (technique.prefilter == Prefilter::none) return map;
     const CompiledFilter<Real>& filter = compiled<Real>(technique);
     map.edge = filteredEdge(constants);
-    if (const auto slot = technique.parameterSlot(technique.pairsParameter)) {
+    if (const auto slot = technique.parameterSlot(technique.termsParameter)) {
         ParameterValues values{};
         const auto component = static_cast<glm::length_t>(*slot % 4);
         values[*slot] = static_cast<float>(constants.parameters[*slot / 4][component]);

@@ -23,7 +23,7 @@ glm::ivec2 pixelOfCell(int edge, std::uint64_t turn) {
 ShaderLibrary withDemand(const ShaderLibrary& shaders, const std::string& demandGlsl) {
     ShaderLibrary::Files files = shaders.files();
     files[kDemandInclude] = demandGlsl;
-    return ShaderLibrary(std::move(files));
+    return ShaderLibrary(std::move(files), shaders.place());
 }
 
 DemandPass::DemandPass(const ShaderLibrary& shaders, const std::string& demandGlsl)

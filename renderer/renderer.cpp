@@ -65,6 +65,11 @@ void bindTextures(std::initializer_list<GLuint> names) {
     for (const GLuint name : names) glBindTextureUnit(unit++, name);
 }
 
+Program makeLookupProgram(const ShaderLibrary& shaders, const Technique& technique) {
+    return makeProgram(shaders, "passes/fullscreen.vert", "passes/lookup.frag",
+                       techniqueOptions(technique));
+}
+
 void throwOnGlError() {
     const GLenum error = glGetError();
     if (error != GL_NO_ERROR)
@@ -90,7 +95,9 @@ f64::ShadowConstants toDouble(const f32::ShadowConstants& c) {
             glm::dvec4(c.map),
             glm::dvec4(c.kernel),
             {glm::dvec4(c.parameters[0]), glm::dvec4(c.parameters[1])},
-            glm::dvec4(c.prefilter)};
+            glm::dvec4(c.prefilter),
+            {glm::dvec4(c.layerEnds[0]), glm::dvec4(c.layerEnds[1]), glm::dvec4(c.layerEnds[2]),
+             glm::dvec4(c.layerEnds[3])}};
 }
 
 void FrameSettings::validate(const GlInfo& info) const {
@@ -106,11 +113,8 @@ void FrameSettings::validate(const GlInfo& info) const {
 
 Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
                    const ShaderLibrary& shaders)
-    : info_(info), shaders_(shaders), mapFilter_(shaders) {
-    depthProgram_ = makeProgram(shaders_, "passes/depth.vert", "passes/depth.frag", {});
-    prepassProgram_ = makeProgram(shaders_, "passes/prepass.vert", "passes/prepass.frag", {});
-    litProgram_ = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lit.frag", {});
-    lookupPrograms_.resize(techniques().size());
+    : info_(info), shaders_(shaders), lookupPrograms_(techniques().size()), mapFilter_(shaders) {
+    reload(shaders);
 
     viewBlock_ = makeUniformBlock(view_, "view constants");
     shadowBlock_ = makeUniformBlock(shadow_, "shadow constants");
@@ -125,6 +129,7 @@ Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
 
 void Renderer::setScene(Scene scene) {
     window_ = fitShadowWindow(scene.casters, scene.sun);
+    depthCounter_.forget();
     scene_ = std::move(scene);
     uploadScene();
 }
@@ -285,12 +290,36 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     bindConstants();
 }
 
+void Renderer::reload(const ShaderLibrary& shaders) {
+    Program depth = makeProgram(shaders, "passes/depth.vert", "passes/depth.frag", {});
+    Program prepass = makeProgram(shaders, "passes/prepass.vert", "passes/prepass.frag", {});
+    Program lit = makeProgram(shaders, "passes/fullscreen.vert", "passes/lit.frag", {});
+    std::vector<Program> lookups(techniques().size());
+    MapFilter mapFilter(shaders);
+    ShaderLibrary own = shaders;
+    for (std::size_t row = 0; row < lookups.size(); ++row) {
+        if (lookupPrograms_[row].name() == 0) continue;
+        lookups[row] = makeLookupProgram(shaders, techniques()[row]);
+        mapFilter.prepare(techniques()[row]);
+    }
+    // Nothing below throws.
+    shaders_ = std::move(own);
+    depthProgram_ = std::move(depth);
+    prepassProgram_ = std::move(prepass);
+    litProgram_ = std::move(lit);
+    lookupPrograms_ = std::move(lookups);
+    mapFilter_ = std::move(mapFilter);
+}
+
+void Renderer::prepare(const Technique& technique) {
+    lookupProgram(technique);
+    mapFilter_.prepare(technique);
+}
+
 const Program& Renderer::lookupProgram(const Technique& technique) {
     const auto row = static_cast<std::size_t>(&technique - techniques().data());
     Program& program = lookupPrograms_.at(row);
-    if (program.name() == 0)
-        program = makeProgram(shaders_, "passes/fullscreen.vert", "passes/lookup.frag",
-                              techniqueOptions(technique));
+    if (program.name() == 0) program = makeLookupProgram(shaders_, technique);
     return program;
 }
 
@@ -298,9 +327,9 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     settings.validate(info_);
     const Technique& technique =
         settings.technique != nullptr ? *settings.technique : techniques().front();
-    lookupProgram(technique);
-    mapFilter_.prepare(technique);
+    prepare(technique);
     if (technique.prefilter == Prefilter::none) mapFilter_.release();
+    if (!hasLayers(technique)) depthCounter_.forget();  // its count is of an earlier light
     ensureMap(settings.resolution);
     lastFrameSoft_ = technique.soft && settings.radiusUv > 0;
     hasFrame_ = true;
@@ -311,8 +340,9 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     }
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
-        mapFilter_.run(technique, settings.parameters.value_or(technique.standardParameters()),
-                       shadow_, map_, reservedEdge_);
+        const ParameterValues parameters =
+            withLayers(technique, settings.parameters.value_or(technique.standardParameters()));
+        mapFilter_.run(technique, parameters, shadow_, map_, reservedEdge_);
     }
     {
         const PassScope scope(Pass::prepass, clock);
@@ -347,6 +377,18 @@ void Renderer::drawDepth() {
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indexCount_), GL_UNSIGNED_INT, nullptr);
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_SCISSOR_TEST);
+}
+
+ParameterValues Renderer::withLayers(const Technique& technique, const ParameterValues& asked) {
+    if (!hasLayers(technique)) return asked;
+    const int resolution = static_cast<int>(shadow_.map.x);
+    const Layers layers =
+        placeLayers(technique, asked, depthCounter_.count(shaders_, map_, resolution));
+    useLayers(technique, layers, shadow_);
+    fillUniformBlock(shadowBlock_, shadow_);
+    ParameterValues values = asked;
+    values[technique.parameterSlot("layers").value()] = static_cast<float>(layers.count);
+    return values;
 }
 
 void Renderer::drawPrepass() {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/depth_counter.h"
 #include "renderer/gl_context.h"
 #include "renderer/gl_object.h"
 #include "renderer/image.h"
@@ -46,6 +47,13 @@ class Renderer {
     /// Compiles every pass. Throws std::runtime_error for a shader that does not compile.
     Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
              const ShaderLibrary& shaders = ShaderLibrary::embedded());
+
+    /// Takes these shaders from now on. Throws std::runtime_error where a pass that has been used
+    /// does not compile, and then the last good programs stay.
+    void reload(const ShaderLibrary& shaders);
+    const ShaderLibrary& shaders() const { return shaders_; }
+    /// Compiles what the technique needs, if it has not been; throws as render() would.
+    void prepare(const Technique& technique);
 
     void setScene(Scene scene);
     void resize(int widthPx, int heightPx);
@@ -105,6 +113,9 @@ class Renderer {
     void ensureMap(int resolution);
     const Program& lookupProgram(const Technique& technique);
     void drawDepth();
+    /// The parameters of a layered technique with the layers that the map asks for, entered into
+    /// the shadow block; those of others as they are.
+    ParameterValues withLayers(const Technique& technique, const ParameterValues& asked);
     void drawPrepass();
     void drawLookup(const Technique& technique);
     void drawLit();
@@ -136,6 +147,7 @@ class Renderer {
     Texture map_;
     Framebuffer mapTarget_;
     MapFilter mapFilter_;
+    DepthCounter depthCounter_;
     Texture positions_, planes_, normals_, albedos_, surfaceDepth_, visibility_, lit_;
     Framebuffer prepassTarget_, visibilityTarget_, litTarget_;
 };

@@ -15,8 +15,6 @@
 namespace renderer {
 namespace {
 
-constexpr std::string_view kFolder = "renderer/shaders/";
-
 std::string preamble(const ShaderOptions& options) {
     std::ostringstream text;
     text << "#version 450 core\n"
@@ -104,7 +102,7 @@ class Expander {
         open_.push_back(path);
         const std::string& source = library_.text(path, includedFrom);
         const std::size_t number = out.files.size();
-        out.files.push_back(std::string(kFolder) + path);
+        out.files.push_back(library_.place() + path);
         out.text += "#line 1 " + std::to_string(number) + "\n";
 
         std::istringstream lines(source);
@@ -115,7 +113,7 @@ class Expander {
                 out.text += line + "\n";
                 continue;
             }
-            const std::string here = std::string(kFolder) + path + ":" + std::to_string(lineNumber);
+            const std::string here = library_.place() + path + ":" + std::to_string(lineNumber);
             expand(resolve(*included, here), here, out);
             out.text +=
                 "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
@@ -162,7 +160,7 @@ Shader compile(GLenum stage, const ShaderLibrary& library, const std::string& pa
     log.erase(std::find(log.begin(), log.end(), '\0'), log.end());
     const bool warned = log.find("warning") != std::string::npos;
     if (compiled != GL_TRUE || warned)
-        throw std::runtime_error("shader " + std::string(kFolder) + path + " does not compile" +
+        throw std::runtime_error("shader " + library.place() + path + " does not compile" +
                                  (compiled == GL_TRUE ? " without warnings" : "") + ":\n" +
                                  locatedLog(log, expanded.files) + definesInForce(options));
     return shader;
@@ -209,7 +207,7 @@ ShaderLibrary ShaderLibrary::fromFolder(const std::filesystem::path& folder) {
             throw std::runtime_error("shader file " + entry.path().string() + " cannot be read");
         files[std::filesystem::relative(entry.path(), folder).generic_string()] = text.str();
     }
-    return ShaderLibrary(std::move(files));
+    return ShaderLibrary(std::move(files), (folder / "").string());
 }
 
 const std::string& ShaderLibrary::text(std::string_view path,
@@ -217,8 +215,7 @@ const std::string& ShaderLibrary::text(std::string_view path,
     const auto found = files_.find(path);
     if (found == files_.end())
         throw std::runtime_error((includedFrom.empty() ? "" : includedFrom + ": ") +
-                                 "shader file " + std::string(kFolder) + std::string(path) +
-                                 " does not exist");
+                                 "shader file " + place_ + std::string(path) + " does not exist");
     return found->second;
 }
 

@@ -23,18 +23,22 @@ class ShaderLibrary {
 
     /// The shaders that were built into the program.
     static const ShaderLibrary& embedded();
-    /// Every .vert, .frag, .comp and .glsl file below a folder. Throws std::runtime_error where it
-    /// cannot be read.
+    /// Every .vert, .frag, .comp and .glsl file below a folder, named with it in sentences. Throws
+    /// std::runtime_error where it cannot be read.
     static ShaderLibrary fromFolder(const std::filesystem::path& folder);
 
-    explicit ShaderLibrary(Files files) : files_(std::move(files)) {}
+    /// `place`: what stands before a path where a file is named in a sentence.
+    explicit ShaderLibrary(Files files, std::string place = "renderer/shaders/")
+        : files_(std::move(files)), place_(std::move(place)) {}
 
     /// Throws std::runtime_error: "shader file ... does not exist, included from file:line".
     const std::string& text(std::string_view path, const std::string& includedFrom = {}) const;
     const Files& files() const { return files_; }
+    const std::string& place() const { return place_; }
 
   private:
     Files files_;
+    std::string place_;
 };
 
 struct ShaderDefine {

@@ -89,10 +89,12 @@ STAIRWELL_SHADER_LANGUAGE(float)
 #include "renderer/shaders/shared/disc_kernel.glsl"
 #include "renderer/shaders/shared/disc_visibility.glsl"
 #include "renderer/shaders/shared/taps.glsl"
+#include "renderer/shaders/shared/gradient_compare.glsl"
 #include "renderer/shaders/shared/filtered_map.glsl"
 #include "renderer/shaders/shared/chebyshev.glsl"
 #include "renderer/shaders/shared/exponential_warp.glsl"
 #include "renderer/shaders/shared/hamburger.glsl"
+#include "renderer/shaders/shared/depth_layers.glsl"
 }  // namespace f32
 
 namespace f64 {
@@ -103,10 +105,12 @@ STAIRWELL_SHADER_LANGUAGE(double)
 #include "renderer/shaders/shared/disc_kernel.glsl"
 #include "renderer/shaders/shared/disc_visibility.glsl"
 #include "renderer/shaders/shared/taps.glsl"
+#include "renderer/shaders/shared/gradient_compare.glsl"
 #include "renderer/shaders/shared/filtered_map.glsl"
 #include "renderer/shaders/shared/chebyshev.glsl"
 #include "renderer/shaders/shared/exponential_warp.glsl"
 #include "renderer/shaders/shared/hamburger.glsl"
+#include "renderer/shaders/shared/depth_layers.glsl"
 }  // namespace f64
 // clang-format on
 
@@ -119,13 +123,14 @@ static_assert(offsetof(f32::ViewConstants, pixelRight) == 80);
 static_assert(offsetof(f32::ViewConstants, pixelUp) == 96);
 static_assert(offsetof(f32::ViewConstants, forward) == 112);
 static_assert(offsetof(f32::ViewConstants, viewport) == 128);
-static_assert(sizeof(f32::ShadowConstants) == 224);
+static_assert(sizeof(f32::ShadowConstants) == 288);
 static_assert(offsetof(f32::ShadowConstants, shadowFromWorld) == 64);
 static_assert(offsetof(f32::ShadowConstants, towardsLight) == 128);
 static_assert(offsetof(f32::ShadowConstants, map) == 144);
 static_assert(offsetof(f32::ShadowConstants, kernel) == 160);
 static_assert(offsetof(f32::ShadowConstants, parameters) == 176);
 static_assert(offsetof(f32::ShadowConstants, prefilter) == 208);
+static_assert(offsetof(f32::ShadowConstants, layerEnds) == 224);
 static_assert(sizeof(f32::LookConstants) == 96);
 static_assert(offsetof(f32::LookConstants, zenithColour) == 16);
 static_assert(offsetof(f32::LookConstants, horizonColour) == 32);

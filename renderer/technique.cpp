@@ -61,25 +61,23 @@ constexpr TechniqueParameter kGridParameters[] = {
      .meaning = "weights: 0 alike, 1 a Gaussian of the disc's standard deviation",
      .whole = true}};
 
-struct TapParameters {
-    TechniqueParameter all[4];
-};
-constexpr TapParameters tapParameters(float low, float high) {
-    return {{kBiasTexels,
-             {.name = "taps",
-              .meaning = "taps in the disc",
-              .low = low,
-              .high = high,
-              .standard = 25,
-              .whole = true},
-             kBilinear,
-             {.name = "rotated",
-              .meaning = "1 turns the taps from pixel to pixel: noise in place of bands",
-              .standard = 1,
-              .whole = true}}};
-}
-constexpr TapParameters kPoisson = tapParameters(8, 32);
-constexpr TapParameters kVogel = tapParameters(1, 128);
+constexpr TechniqueParameter kTapParameters[] = {
+    kBiasTexels,
+    {.name = "pattern",
+     .meaning = "taps of 0 Poisson's, 1 Vogel's pattern",
+     .standard = 1,
+     .whole = true},
+    {.name = "taps",
+     .meaning = "taps in the disc",
+     .low = 4,
+     .high = 64,
+     .standard = 25,
+     .whole = true},
+    kBilinear,
+    {.name = "rotated",
+     .meaning = "1 turns the taps from pixel to pixel: noise in place of bands",
+     .standard = 1,
+     .whole = true}};
 constexpr Property kTapsDoNot[] = {Property::errorFallsWithN};
 constexpr std::string_view kTapsDoNotBecause =
     "a fixed number of samples does not see more of a finer map";
@@ -112,8 +110,13 @@ constexpr TechniqueParameter kGradientParameters[] = {
      .high = 2,
      .standard = 2,
      .whole = true},
+    {.name = "pattern",
+     .meaning = "places of the taps: 0 Vogel's spiral, 1 a circle of 8, 2 16 of Poisson's",
+     .low = 0,
+     .high = 2,
+     .whole = true},
     {.name = "taps",
-     .meaning = "taps in the disc",
+     .meaning = "taps of the spiral",
      .low = 3,
      .high = 64,
      .standard = 16,
@@ -234,16 +237,33 @@ constexpr TechniqueParameter kConvolutionParameters[] = {
      .standard = 2}};
 constexpr Property kConvolutionDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
 
+constexpr TechniqueParameter depthLayers(float standard) {
+    return {.name = "layers",
+            .meaning =
+                "layers of depth, cut where the map's depths lie; 0: as few as layer_deviation "
+                "asks for",
+            .low = 0,
+            .high = 16,
+            .standard = standard,
+            .whole = true};
+}
+/// A bound bleeds v / (v + g^2) of light at a distance g behind depths of variance v: at .05 a
+/// fifth at a tenth of the range, a hundredth at half of it.
+constexpr TechniqueParameter kLayerDeviation{
+    .name = "layer_deviation",
+    .meaning =
+        "of automatic layers: the depths' standard deviation within them, as a share of the depth "
+        "range",
+    .low = 0.005F,
+    .high = 0.3F,
+    .standard = 0.05F};
+
 constexpr TechniqueParameter kLayerParameters[] = {
     kBiasTexels,
     biasReaches(1),
     kGaussian,
-    {.name = "layers",
-     .meaning = "layers of the depth range",
-     .low = 1,
-     .high = 16,
-     .standard = 4,
-     .whole = true},
+    depthLayers(0),
+    kLayerDeviation,
     {.name = "least_variance",
      .meaning = "least variance, in squares of a layer's depth range",
      .low = 0,
@@ -256,10 +276,11 @@ constexpr TechniqueParameter kLayerParameters[] = {
      .standard = 0}};
 
 struct PowerParameters {
-    TechniqueParameter all[4];
+    TechniqueParameter all[6];
 };
 constexpr PowerParameters powerParameters(float depthBias) {
-    return {{kBiasTexels, biasReaches(1), biasDepth(depthBias), kGaussian}};
+    return {{kBiasTexels, biasReaches(1), biasDepth(depthBias), kGaussian, depthLayers(1),
+             kLayerDeviation}};
 }
 constexpr PowerParameters kPower32 = powerParameters(0);
 constexpr PowerParameters kPower16 = powerParameters(kHalfRounding);
@@ -301,17 +322,10 @@ constexpr Technique kTechniques[] = {
      .doNotHold = kTapsDoNot,
      .doNotHoldBecause = kTapsDoNotBecause,
      .cost = "samples^2 texels a pixel, four times as many bilinearly; independent of N"},
-    {.name = "pcf_poisson",
-     .title = "PCF, Poisson taps",
+    {.name = "pcf_taps",
+     .title = "PCF, Poisson or Vogel taps",
      .paper = kPcfPaper,
-     .parameters = kPoisson.all,
-     .doNotHold = kTapsDoNot,
-     .doNotHoldBecause = kTapsDoNotBecause,
-     .cost = "one texel a tap, four bilinearly; independent of N"},
-    {.name = "pcf_vogel",
-     .title = "PCF, Vogel taps",
-     .paper = kPcfPaper,
-     .parameters = kVogel.all,
+     .parameters = kTapParameters,
      .doNotHold = kTapsDoNot,
      .doNotHoldBecause = kTapsDoNotBecause,
      .cost = "one texel a tap, four bilinearly; independent of N"},
@@ -394,7 +408,7 @@ constexpr Technique kTechniques[] = {
      .paper = "Annen, Mertens, Bekaert, Seidel, Kautz 2007, Convolution shadow maps",
      .format = MapFormat::rgba16f,
      .prefilter = Prefilter::mean,
-     .pairsParameter = "terms",
+     .termsParameter = "terms",
      .parameters = kConvolutionParameters,
      .doNotHold = kConvolutionDoesNot,
      .doNotHoldBecause = "a series of few terms rings behind occluders, whatever N",
@@ -404,7 +418,7 @@ constexpr Technique kTechniques[] = {
      .paper = kWarpedPaper,
      .format = MapFormat::rgba32f,
      .prefilter = Prefilter::mean,
-     .pairsParameter = "layers",
+     .termsParameter = "layers",
      .parameters = kLayerParameters,
      .planeDarkening = 1e-6F,  // rounding of a full layer before the receiver's
      .cost = "4 texels a pixel and two layers; the prefilter that of a map for every two layers"},
@@ -413,20 +427,24 @@ constexpr Technique kTechniques[] = {
      .paper = kPowerPaper,
      .format = MapFormat::rgba32f,
      .prefilter = Prefilter::minMaxMean,
+     .termsParameter = "layers",
+     .termsPerTexel = 1,
      .parameters = kPower32.all,
      .doNotHold = kPowerDoesNot,
      .doNotHoldBecause = kPowerDoesNotBecause,
-     .cost = kSeparableCost},
+     .cost = "4 texels a pixel; the prefilter that of a map for every layer"},
     {.name = "power_cdf16",
      .title = "Power CDF, 16 bits",
      .paper = kPowerPaper,
      .file = "power_cdf",
      .format = MapFormat::rgba16f,
      .prefilter = Prefilter::minMaxMean,
+     .termsParameter = "layers",
+     .termsPerTexel = 1,
      .parameters = kPower16.all,
      .doNotHold = kPowerDoesNot,
      .doNotHoldBecause = kPowerDoesNotBecause,
-     .cost = kSeparableCost},
+     .cost = "4 texels a pixel; the prefilter that of a map for every layer"},
 };
 
 }  // namespace
@@ -524,8 +542,8 @@ std::optional<std::size_t> Technique::parameterSlot(std::string_view parameter) 
 }
 
 int Technique::mapLayers(const ParameterValues& values) const {
-    const auto slot = parameterSlot(pairsParameter);
-    return slot ? (static_cast<int>(values[*slot]) + 1) / 2 : 1;
+    const auto slot = parameterSlot(termsParameter);
+    return slot ? (static_cast<int>(values[*slot]) + termsPerTexel - 1) / termsPerTexel : 1;
 }
 
 std::span<const Technique> techniques() {

@@ -64,9 +64,10 @@ struct Technique {
     std::string_view file = {};  ///< below filters/, without .glsl; empty: the name
     MapFormat format = MapFormat::depth32f;
     Prefilter prefilter = Prefilter::none;
-    /// Name of the parameter that says how many pairs of values are stored, two pairs to a texel of
-    /// a layer; empty: one layer.
-    std::string_view pairsParameter = {};
+    /// Name of the parameter that says how many terms are stored, and how many of them a texel
+    /// holds; a map has as many layers as they take. Empty: one layer.
+    std::string_view termsParameter = {};
+    int termsPerTexel = 2;
     bool soft = true;  ///< has a kernel whose radius is the softness
     std::span<const TechniqueParameter> parameters;
     std::span<const Property> doNotHold = {};

@@ -5,8 +5,11 @@
 //
 // Source: J. Gumbau, L. Szirmay-Kalos, M. Sbert, M. Chover, "Improving shadow map filtering with statistical analysis",
 // Eurographics 2011, equations 1 to 4.
-// Map: x mean, y least, z greatest linear light depth, 0 near, under the kernel's footprint.
-// Parameters: bias_texels, bias_reaches, bias_depth (shared/filtered_map.glsl); gaussian (prefilter.h).
+// Map: x mean, y least, z greatest linear light depth, 0 near, under the kernel's footprint; layered as for lvsm, each
+// with the depths in it (shared/depth_layers.glsl). The receiver's own layer alone counts: in one before it the receiver
+// is the greatest depth, and dark as soon as anything is in the way.
+// Parameters: bias_texels, bias_reaches, bias_depth (shared/filtered_map.glsl); gaussian (prefilter.h); layers,
+// layer_deviation (layer_placement.h).
 
 // exp(x) - 1 and log(1 + x) for |x| < 1, without the cancellation near 0.
 SHARED_FUNCTION real expMinusOne(real x) {
@@ -31,13 +34,16 @@ SHARED_FUNCTION real powerVisibility(real t, real s, real m, real n) {
 }
 
 SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstants shadow) {
-    return real4(depth, depth, depth, 0.0);
+    real within = depthInLayer(depth, layer, shadow);
+    return real4(within, within, within, 0.0);
 }
 
 SHARED_FUNCTION real filterVisibility(sampler2DArray map, ShadowReceiver receiver, ShadowConstants shadow) {
     if (!reachesFilteredMap(receiver.uv, shadow)) return real(1.0);
-    real4 stored = filteredTexel(map, receiver.uv, 0, shadow);
-    real depth = biasedDepth(receiver, shadow, PARAMETER_bias_texels, PARAMETER_bias_reaches, PARAMETER_bias_depth);
+    real biased = biasedDepth(receiver, shadow, PARAMETER_bias_texels, PARAMETER_bias_reaches, PARAMETER_bias_depth);
+    int layer = layerOf(biased, int(PARAMETER_layers), shadow);
+    real4 stored = filteredTexel(map, receiver.uv, layer, shadow);
+    real depth = depthInLayer(biased, layer, shadow);
     real mean = clamp(stored.x, min(stored.y, stored.z), max(stored.y, stored.z));  // rounding may take it out
     if (!(depth > mean)) return real(1.0);
     if (!(depth < stored.z)) return real(0.0);

@@ -18,12 +18,14 @@ struct ShadowConstants {
     real4x4 shadowFromEyeRelative;  // to (u w, v w, depth, w): depth is linear in [0,1], 0 near, and not divided by w
     real4x4 shadowFromWorld;        // the same from world positions, for the depth pass
     real4 towardsLight;             // xyz unit vector to the light
-    real4 map;                      // x resolution N in texels, y 1/N, z 1/(edge of the texture that holds the map)
+    real4 map;                      // x resolution N in texels, y 1/N, z 1/(edge of the texture that holds the map);
+                                    // w (far - near) / near of a light that is a point, 0 of the sun
     real4 kernel;                   // x radius, y least radius where texels show, both as a fraction of the map's extent;
                                     // z samples along a screen pixel's edge (1 but for antialiased pictures)
     real4 parameters[2];            // of the technique, in the order of its table row
     real4 prefilter;                // x the kernel's standard deviation in texels, y 1 if it is a Gaussian and 0 if a box,
                                     // z texels of the guard band, w 1 if a texel is split into high and low parts
+    real4 layerEnds[4];             // of a layered technique: where each of up to 16 layers of depth ends
 };
 
 // How the lit pass looks. Colours are linear light.

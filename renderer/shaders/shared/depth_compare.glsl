@@ -7,6 +7,11 @@ SHARED_FUNCTION real unitRange(real visibility) {
     return visibility >= real(0.0) ? min(visibility, real(1.0)) : (visibility < real(0.0) ? real(0.0) : real(1.0));
 }
 
+// A texel's depth as a caster's: depth that is no number casts nothing.
+SHARED_FUNCTION real casterOf(real depth) {
+    return depth >= real(0.0) ? min(depth, real(1.0)) : (depth < real(0.0) ? real(0.0) : real(1.0));
+}
+
 struct PlaneCompare {
     real atOrigin;  // depth of the receiver's plane at texel coordinates (0,0), bias taken off
     real2 perTexel; // its change from texel to texel

@@ -12,14 +12,13 @@ SHARED_FUNCTION int filteredEdge(ShadowConstants shadow) {
 
 // --- From depth to what is stored ---
 
-// Depth of the caster in a texel of the filtered map. Depth that is no number is no caster.
+// Depth of the caster in a texel of the filtered map.
 SHARED_FUNCTION real casterDepth(sampler2D depthMap, int2 texel, ShadowConstants shadow) {
     int guard = int(shadow.prefilter.z);
     int2 inside = texel - int2(guard, guard);
     int last = int(shadow.map.x) - 1;
     if (inside.x < 0 || inside.y < 0 || inside.x > last || inside.y > last) return real(1.0);
-    real depth = real(texelFetch(depthMap, inside, 0).x);
-    return depth >= real(0.0) ? min(depth, real(1.0)) : (depth < real(0.0) ? real(0.0) : real(1.0));
+    return casterOf(real(texelFetch(depthMap, inside, 0).x));
 }
 
 SHARED_FUNCTION real smallerOf(real a, real b) { return abs(a) < abs(b) ? a : b; }

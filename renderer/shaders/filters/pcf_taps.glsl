@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Percentage-closer filtering with Vogel's taps in the disc, turned from pixel to pixel if asked: a fixed cost,
-// with noise in place of bands.
+// Percentage-closer filtering with a fixed number of taps in the disc, Poisson's or Vogel's, turned from pixel to pixel
+// if asked: a fixed cost, with noise in place of bands.
 //
 // Source: W. Reeves, D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987;
 // shared/taps.glsl.
 // Map: linear light depth, 0 near. Reads one texel a tap, four bilinearly.
-// Parameters: bias_texels (shared/depth_compare.glsl); taps; bilinear; rotated.
+// Parameters: bias_texels (shared/depth_compare.glsl); pattern 0 Poisson, 1 Vogel; taps; bilinear; rotated.
 
 SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
     real radius = kernelRadiusUv(receiver, shadow);
@@ -15,7 +15,7 @@ SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, Sh
     int n = int(PARAMETER_taps);
     real lit = real(0.0);
     for (int i = 0; i < n; ++i) {
-        real2 uv = receiver.uv + turned(vogelTap(i, n), turn) * radius;
+        real2 uv = receiver.uv + turned(patternTap(PARAMETER_pattern, i, n), turn) * radius;
         lit += tapVisibility(map, uv, shadow, plane, PARAMETER_bilinear);
     }
     return clamp(lit / real(n), real(0.0), real(1.0));
