@@ -22,7 +22,7 @@ struct Options {
     std::optional<int> compareWith;
     std::optional<float> gain, split;
     demo::SlopeOptions slope;
-    std::optional<std::filesystem::path> state;
+    std::optional<std::filesystem::path> state, shaders;
     bool headless = false;
     std::optional<int> frames;
     int width = 1280, height = 720;
@@ -42,6 +42,9 @@ void listTechniques() {
                     std::string(toText(technique.format)).c_str(),
                     std::string(toText(technique.prefilter)).c_str(),
                     std::string(technique.cost).c_str());
+        if (technique.planeDarkening > 0)
+            std::printf("  a plane may darken itself by %.2g\n",
+                        static_cast<double>(technique.planeDarkening));
         for (const renderer::TechniqueParameter& parameter : technique.parameters)
             std::printf("  %s=%g\t%s, %g to %g\n", std::string(parameter.name).c_str(),
                         static_cast<double>(parameter.standard),
@@ -194,10 +197,13 @@ void demonstrate(const Options& options) {
         for (const std::string& note : demo::loadSlope(options.slope.file, state.audience).notes)
             std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
 
+    const renderer::ShaderLibrary shaders =
+        options.shaders ? renderer::ShaderLibrary::fromFolder(*options.shaders)
+                        : renderer::ShaderLibrary::embedded();
     if (options.headless) {
         const renderer::HeadlessContext context;
         demo::Viewer viewer(context.info(), state, options.slope.file, options.width,
-                            options.height);
+                            options.height, shaders);
         const int settlingFrames = viewer.settle();
         if (options.sequence) return writeSequence(options, viewer);
         report(options, context.info(), viewer, settlingFrames);
@@ -205,8 +211,12 @@ void demonstrate(const Options& options) {
         return;
     }
     renderer::Window window("shadow_demo", options.width, options.height);
-    demo::Viewer viewer(window.info(), state, options.slope.file, options.width, options.height);
-    showViewer(window, viewer, {.frames = options.frames.value_or(0), .pictureFolder = "."});
+    demo::Viewer viewer(window.info(), state, options.slope.file, options.width, options.height,
+                        shaders);
+    showViewer(window, viewer,
+               {.frames = options.frames.value_or(0),
+                .pictureFolder = ".",
+                .shaderFolder = options.shaders});
     if (options.stats || options.screenshot) {
         Options last = options;
         last.frames = kHeadlessFrames;
@@ -247,6 +257,9 @@ int main(int argc, char** argv) {
     app.add_option("--state", options.state,
                    "JSON file: what the viewer shows, read at the start where it exists and "
                    "written at the end; other options go before it");
+    app.add_option("--shaders", options.shaders,
+                   "folder to read the shaders from, as renderer/shaders has them; L in the window "
+                   "reads them again; default: those built in");
     app.add_flag("--headless", options.headless, "no window: render, measure, write, end");
     app.add_option("--frames", options.frames,
                    "headless: frames to time or to write (default 10); window: frames after which "

@@ -59,7 +59,7 @@ ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
     : frame_(frame),
       info_(info),
       controller_({.slope = settings.slope, .driverMaxSize = info.maxResolution}),
-      demand_(renderer::ShaderLibrary::embedded(), kDemandGlsl) {
+      demand_(frame.shaders(), kDemandGlsl) {
     change(settings);
 }
 

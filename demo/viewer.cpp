@@ -17,12 +17,13 @@ const ViewerState& checked(const ViewerState& state) {
 }  // namespace
 
 Viewer::Viewer(const renderer::GlInfo& info, const ViewerState& state,
-               std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx)
+               std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx,
+               const renderer::ShaderLibrary& shaders)
     : info_(info),
       slopeFile_(std::move(slopeFile)),
       state_(checked(state)),
-      frame_(info, renderer::makeScene(state.scene), widthPx, heightPx),
-      view_(renderer::ShaderLibrary::embedded(), kDemandGlsl) {
+      frame_(info, renderer::makeScene(state.scene), widthPx, heightPx, shaders),
+      view_(shaders, kDemandGlsl) {
     sceneCamera_ = frame_.scene().camera;
     sceneSun_ = frame_.scene().sun;
     apply(state_);
@@ -41,6 +42,7 @@ ShadowRun::Settings Viewer::settingsOf(const ViewerState& state,
 void Viewer::show(const ViewerState& state) {
     if (state == state_) return;
     checked(state);
+    frame_.prepare(renderer::findTechnique(state.technique));
     try {
         apply(state);
     } catch (const std::invalid_argument&) {
@@ -68,6 +70,15 @@ void Viewer::apply(const ViewerState& state) {
     if (run_) run_->change(settingsOf(state, state.resolution));
 }
 
+void Viewer::reload(const renderer::ShaderLibrary& shaders) {
+    renderer::ViewPass view(shaders, kDemandGlsl);
+    frame_.reload(shaders);
+    view_ = std::move(view);
+    otherRun_.reset();  // made again when it is needed
+    otherFrame_.reset();
+    otherShows_.reset();
+}
+
 void Viewer::resize(int widthPx, int heightPx) {
     frame_.resize(widthPx, heightPx);
 }
@@ -88,7 +99,8 @@ int Viewer::settle() {
 void Viewer::drawOther() {
     if (!otherFrame_)
         otherFrame_ = std::make_unique<renderer::Renderer>(info_, renderer::makeScene(state_.scene),
-                                                           frame_.widthPx(), frame_.heightPx());
+                                                           frame_.widthPx(), frame_.heightPx(),
+                                                           frame_.shaders());
     const bool sameSize =
         otherFrame_->widthPx() == frame_.widthPx() && otherFrame_->heightPx() == frame_.heightPx();
     if (otherShows_ == state_ && sameSize) return;  // a still view: it is often the slower frame

@@ -20,10 +20,15 @@ class Viewer {
     /// Throws std::invalid_argument for a state that is not usable, what loadSlope() throws, and
     /// what Renderer throws.
     Viewer(const renderer::GlInfo& info, const ViewerState& state,
-           std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx);
+           std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx,
+           const renderer::ShaderLibrary& shaders = renderer::ShaderLibrary::embedded());
 
-    /// From the next frame on. Throws std::invalid_argument, and then the state stays as it was.
+    /// From the next frame on. Throws std::invalid_argument, and std::runtime_error where the
+    /// technique's shaders do not compile, and then the state stays as it was.
     void show(const ViewerState& state);
+    /// Takes these shaders for picture and view from the next frame on. Throws std::runtime_error
+    /// where one does not compile, and then the last good ones stay.
+    void reload(const renderer::ShaderLibrary& shaders);
     void resize(int widthPx, int heightPx);
 
     /// The next frame. The clock sees the passes of the frame alone, not those of the one that it

@@ -241,6 +241,7 @@ std::string keyHelp() {
            "S  next scene\n"
            "P  play: camera round, sun round, still\n"
            "H  hide or show the panel\n"
+           "L  load the shaders of --shaders again\n"
            "drag, wheel  turn, zoom; in the split view drag the line\n"
            "Esc  close\n";
 }

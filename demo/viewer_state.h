@@ -70,6 +70,7 @@ Path parsePath(const std::string& word, const std::string& option);
 
 /// One line per key, for --help and the panel.
 std::string keyHelp();
+inline constexpr char kReloadKey = 'L';  ///< reads the shaders again: nothing of the state
 /// What a key does to the state. Returns false for a key that means nothing.
 bool applyKey(char key, ViewerState& state);
 

@@ -115,6 +115,18 @@ std::string savePicture(Viewer& viewer, const std::filesystem::path& folder) {
     return "saved as " + file.string();
 }
 
+/// What came of it.
+std::string reloadShaders(Viewer& viewer, const std::optional<std::filesystem::path>& folder) {
+    if (!folder) return "the shaders are those of the program; start it with --shaders FOLDER";
+    try {
+        viewer.reload(renderer::ShaderLibrary::fromFolder(*folder));
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "shadow_demo: %s\n", error.what());
+        return std::string(error.what()) + "\nthe last good shaders stay";
+    }
+    return "shaders of " + folder->string() + " are in use";
+}
+
 }  // namespace
 
 void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOptions& options) {
@@ -131,7 +143,11 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         ViewerState state = viewer.state();
         for (const char key : input.keys) {
             if (key == '\x1b') return;
-            if (!ImGui::GetIO().WantTextInput) applyKey(key, state);
+            if (ImGui::GetIO().WantTextInput) continue;
+            if (key == kReloadKey)
+                message = reloadShaders(viewer, options.shaderFolder);
+            else
+                applyKey(key, state);
         }
         if (input.widthPx > 0 && input.heightPx > 0) viewer.resize(input.widthPx, input.heightPx);
 
@@ -147,7 +163,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         if (state.panel) request = drawPanel(viewer, history, message, state);
         try {
             viewer.show(state);
-        } catch (const std::invalid_argument& error) {
+        } catch (const std::exception& error) {
             message = error.what();  // the picture stays as it was
         }
         viewer.step(state.timePasses ? &clock : nullptr);

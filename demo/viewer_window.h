@@ -14,6 +14,8 @@ namespace demo {
 struct ViewerWindowOptions {
     int frames = 0;                       ///< after which to close; 0: when the user does
     std::filesystem::path pictureFolder;  ///< where "Save a picture" writes
+    /// Where L reads the shaders again; absent: they are those of the program.
+    std::optional<std::filesystem::path> shaderFolder = {};
 };
 
 /// Shows the window until it is closed or Esc is pressed.

@@ -97,7 +97,8 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
         {{"--parameter", "bias_texels"}, "NAME=NUMBER"},
         {{"--parameter", "bias_texels=nan"}, "nan"},
         {{"--parameter", "size=1"}, "no parameter \"size\""},
-        {{"--samples", "0"}, "--samples is 0"}};
+        {{"--samples", "0"}, "--samples is 0"},
+        {{"--shaders", "/no/such"}, "shader folder /no/such does not exist"}};
     for (const auto& [arguments, sentence] : cases) {
         const auto result = tests::runProgram("shadow_demo", smallFrame(arguments));
         EXPECT_EQ(result.exitCode, 1) << arguments[1];
@@ -107,6 +108,19 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
     const auto zero = tests::runProgram("shadow_demo", {"--headless", "--width", "0"});
     EXPECT_EQ(zero.exitCode, 1);
     EXPECT_THAT(zero.err, HasSubstr("viewport is 0 x 720"));
+}
+
+TEST(ShadowDemo, StopsAtTheStartWhereAShaderOfTheFolderDoesNotCompile) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::copy(STAIRWELL_SOURCE_DIR "/renderer/shaders", folder.path(),
+                          std::filesystem::copy_options::recursive);
+    const std::vector<std::string> arguments = smallFrame({"--shaders", folder.path().string()});
+    EXPECT_EQ(tests::runProgram("shadow_demo", arguments).exitCode, 0);
+    const std::filesystem::path file = folder.path() / "filters/pcf_disc.glsl";
+    std::ofstream(file, std::ios::app) << "oops\n";
+    const auto result = tests::runProgram("shadow_demo", arguments);
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, HasSubstr(file.string() + ":"));
 }
 
 TEST(ShadowDemo, SaysWhatIsMissingWithoutOpenGl45) {

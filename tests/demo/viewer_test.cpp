@@ -46,6 +46,29 @@ renderer::ByteImage imageOf(const ViewerState& state) {
     return viewer.picture(1);
 }
 
+// As L in the window does it.
+TEST(Viewer, ShadersThatDoNotCompileLeaveThePictureAndTheStateAsTheyWere) {
+    demo::Viewer viewer(gl(), smallState(View::difference), std::nullopt, 96, 54);
+    viewer.settle();
+    const renderer::ByteImage before = viewer.picture(1);
+    renderer::ShaderLibrary::Files files = renderer::ShaderLibrary::embedded().files();
+    files["passes/lit.frag"] += "oops";
+    EXPECT_THAT(messageOf([&] { viewer.reload(renderer::ShaderLibrary(files)); }),
+                HasSubstr("passes/lit.frag"));
+    viewer.step();
+    EXPECT_EQ(viewer.picture(1).values, before.values);
+
+    files = renderer::ShaderLibrary::embedded().files();
+    files["filters/esm.glsl"] = "oops";
+    viewer.reload(renderer::ShaderLibrary(files));
+    ViewerState other = viewer.state();
+    other.technique = "esm";
+    EXPECT_THAT(messageOf([&] { viewer.show(other); }), HasSubstr("filters/esm.glsl:1"));
+    EXPECT_EQ(viewer.state().technique, "pcf_disc");
+    viewer.step();
+    EXPECT_EQ(viewer.picture(1).values, before.values);
+}
+
 TEST(Viewer, SplitShowsOneFrameOnEachSideOfTheLine) {
     const renderer::ByteImage left = imageOf(smallState(View::picture));
     ViewerState state = smallState(View::picture);

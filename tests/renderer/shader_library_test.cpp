@@ -4,9 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "renderer/gl_context.h"
 #include "renderer/renderer.h"
 #include "renderer/scene.h"
+#include "tests/temporary_folder.h"
 
 namespace {
 
@@ -76,6 +80,58 @@ TEST(ShaderLibrary, CompileErrorsNameOurFileAndLineThroughIncludes) {
     EXPECT_THAT(message, HasSubstr("renderer/shaders/filters/pcf_disc.glsl:3: error"));
     EXPECT_THAT(message, HasSubstr("unknownName"));
     EXPECT_THAT(message, HasSubstr("PARAMETER_bias_texels=shadow.parameters[0][0]"));
+}
+
+/// The shaders of the program, but for one file.
+ShaderLibrary withFile(const std::string& path, const std::string& text) {
+    ShaderLibrary::Files files = ShaderLibrary::embedded().files();
+    files[path] = text;
+    return ShaderLibrary(std::move(files), "edited/");
+}
+
+// What a developer does all day: a mistake, and the picture stays; mended, and the picture follows.
+TEST(ShaderLibrary, ReloadedShadersAreTakenWhereTheyCompileAndTheLastGoodOnesStayWhereNot) {
+    const renderer::HeadlessContext context;
+    renderer::Renderer frame(context.info(), renderer::makeScene("yard"), 32, 18);
+    const renderer::Technique& vsm = renderer::findTechnique("vsm");
+    const auto visibilityOf = [&] {
+        frame.render({.technique = &vsm, .resolution = 32, .radiusUv = 0.05F});
+        return frame.readVisibility().values;
+    };
+    const auto before = visibilityOf();
+
+    const std::string path = "filters/vsm.glsl";
+    std::string text = ShaderLibrary::embedded().text(path);
+    text.replace(text.rfind("return "), 7, "return nothing + ");
+    const std::string message = messageOf([&] { frame.reload(withFile(path, text)); });
+    EXPECT_THAT(message, HasSubstr("edited/filters/vsm.glsl:"));
+    EXPECT_THAT(message, HasSubstr("nothing"));
+    EXPECT_EQ(visibilityOf(), before);
+
+    // Of a technique that was not shown nobody asks; it is reported when it is.
+    EXPECT_NO_THROW(frame.reload(withFile("filters/esm.glsl", "oops")));
+    EXPECT_EQ(visibilityOf(), before);
+    EXPECT_THAT(messageOf([&] { frame.prepare(renderer::findTechnique("esm")); }),
+                HasSubstr("edited/filters/esm.glsl:1"));
+    EXPECT_EQ(visibilityOf(), before);
+
+    text = ShaderLibrary::embedded().text(path);
+    text.replace(text.rfind("return "), 7, "return 0.5 * ");
+    frame.reload(withFile(path, text));
+    const auto after = visibilityOf();
+    EXPECT_NE(after, before);
+    for (std::size_t i = 0; i < after.size(); ++i)
+        EXPECT_TRUE(after[i] == 1 || after[i] <= 0.5F) << "half, or sky";
+}
+
+TEST(ShaderLibrary, AFolderIsNamedInWhatIsWrongWithItsFiles) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "passes");
+    std::ofstream(folder.path() / "passes/a.frag") << "\n#include \"none.glsl\"\n";
+    const ShaderLibrary library = ShaderLibrary::fromFolder(folder.path());
+    EXPECT_EQ(messageOf([&] { expandShader(library, "passes/a.frag", {}); }),
+              (folder.path() / "passes/a.frag:2: shader file ").string() +
+                  (folder.path() / "none.glsl").string() + " does not exist");
 }
 
 TEST(ShaderLibrary, EveryShaderOfTheTreeIsBuiltIn) {
