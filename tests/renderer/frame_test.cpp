@@ -166,6 +166,62 @@ TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
     }
 }
 
+// Every value of the parameters that choose between formulas, one at a time.
+TEST(Lookup, GpuAgreesWithCpuInEveryWayToReadTheMap) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 120, 68);
+    const auto radius = static_cast<float>(frame.scene().softnessM / frame.window().extentM);
+    constexpr int kN = 64;
+    int ways = 0;
+    for (const Technique& technique : renderer::techniques())
+        for (const renderer::TechniqueParameter& parameter : technique.parameters) {
+            if (!parameter.whole || parameter.high > 4) continue;
+            for (float value = parameter.low; value <= parameter.high; ++value, ++ways) {
+                renderer::ParameterValues parameters = technique.standardParameters();
+                setParameter(technique, parameters, parameter.name, value);
+                frame.render({.technique = &technique,
+                              .parameters = parameters,
+                              .resolution = kN,
+                              .radiusUv = radius});
+                const FloatImage gpu = frame.readVisibility();
+                const FloatImage depths = frame.readShadowMap();
+                const FloatImage cpu =
+                    cpuImage(frame, technique, mapOf(depths, frame.readFilteredMap()));
+                // One tap of 16, or one texel of a filtered map's step, may fall the other way.
+                tests::expectImagesAgree(
+                    std::string(technique.name) + "_" + std::string(parameter.name) + "_" +
+                        std::to_string(static_cast<int>(value)),
+                    gpu, cpu, {.most = 1, .often = 1e-3, .shareBeyondOften = 0.002});
+            }
+        }
+    EXPECT_GT(ways, 30);
+}
+
+// Up to 128 texels along the edge every one is counted. The second frame has the first one's count,
+// of the same map.
+TEST(Layers, LieWhereTheDepthsOfTheMapAreAndFollowTheScene) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 16, 9);
+    for (const char* name : {"lvsm", "power_cdf"}) {
+        const Technique& technique = renderer::findTechnique(name);
+        renderer::ParameterValues parameters = technique.standardParameters();
+        setParameter(technique, parameters, "layers", 0);
+        const FrameSettings settings{.technique = &technique,
+                                     .parameters = parameters,
+                                     .resolution = 100,
+                                     .radiusUv = 0.01F};
+        for (const char* scene : {"yard", "planar_occluder", "planar_occluder"}) {
+            frame.setScene(renderer::makeScene(scene));
+            frame.render(settings);
+            const FloatImage depths = frame.readShadowMap();
+            const auto histogram = renderer::depthHistogram({depths.values.data(), depths.width});
+            renderer::f32::ShadowConstants expected = frame.shadowConstants();
+            useLayers(technique, placeLayers(technique, parameters, histogram), expected);
+            EXPECT_EQ(expected.layerEnds[0], frame.shadowConstants().layerEnds[0]) << scene;
+            EXPECT_EQ(expected.parameters[0], frame.shadowConstants().parameters[0]) << scene;
+            EXPECT_EQ(expected.parameters[1], frame.shadowConstants().parameters[1]) << scene;
+        }
+    }
+}
+
 // Largest value that a technique stores, and what one rounding to its format may move it by.
 double stepOf(const Technique& technique, double largest) {
     using renderer::MapFormat;

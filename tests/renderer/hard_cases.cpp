@@ -6,226 +6,57 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <numbers>
-#include <optional>
 
-#include "tests/renderer/technique_case.h"
+#include "tests/renderer/exact_technique.h"
 
 namespace tests {
 namespace {
 
-using Wide = long double;
-using renderer::Prefilter;
 using renderer::Technique;
 
+// The box reaches 4.25 texels: over the whole map of 9 x 9, its rim with three quarters, and no
+// further.
 constexpr int kEdge = 9;
-// The box reaches 4.25 texels: over the whole map, its rim with three quarters, and no further.
-constexpr double kReach = 4.25;
-const double kRadius = kReach / kEdge * 2 / std::sqrt(3.0);
-
-Wide weightAt(std::size_t texel) {
-    const auto rim = [](std::size_t i) -> Wide { return i % (kEdge - 1) == 0 ? 0.75L : 1; };
-    return rim(texel % kEdge) * rim(texel / kEdge) / (2 * kReach * 2 * kReach);
-}
+const double kRadius = 4.25 / kEdge * 2 / std::sqrt(3.0);
 
 HardCase caseOf(std::string name, const std::function<double(int)>& depth,
-                std::vector<double> receivers) {
-    HardCase hard{std::move(name), {}, std::move(receivers)};
-    for (int i = 0; i < kEdge * kEdge; ++i) hard.depths.push_back(static_cast<float>(depth(i)));
+                std::vector<HardReceiver> receivers, int edge = kEdge, double radiusUv = kRadius) {
+    HardCase hard{std::move(name), edge, radiusUv, {}, std::move(receivers)};
+    for (int i = 0; i < edge * edge; ++i) hard.depths.push_back(static_cast<float>(depth(i)));
     return hard;
 }
 
 /// Clear of the technique's biases on both sides, so that no case asks which way a step falls.
-std::vector<double> around(std::initializer_list<double> depths) {
-    std::vector<double> receivers;
+std::vector<HardReceiver> around(std::initializer_list<double> depths,
+                                 glm::dvec2 gradient = glm::dvec2(0)) {
+    std::vector<HardReceiver> receivers;
     for (const double depth : depths)
         for (const double step : {-0.1, -0.01, 0.0, 0.01, 0.1})
-            if (depth + step >= 0 && depth + step <= 1.2) receivers.push_back(depth + step);
+            if (depth + step >= 0 && depth + step <= 1.2)
+                receivers.push_back({depth + step, gradient});
     return receivers;
-}
-
-double caster(double depth) {
-    return std::isnan(depth) ? 1 : std::clamp(depth, 0.0, 1.0);
-}
-
-/// What the long double formulas start from.
-struct Distribution {
-    std::vector<Wide> depths, weights;
-
-    template <class Value>
-    Wide mean(const Value& value) const {
-        Wide sum = 0;
-        for (std::size_t i = 0; i < depths.size(); ++i) sum += weights[i] * value(depths[i]);
-        return sum;
-    }
-    Wide least() const { return *std::min_element(depths.begin(), depths.end()); }
-    Wide greatest() const { return *std::max_element(depths.begin(), depths.end()); }
-};
-
-Distribution distributionOf(const HardCase& hard) {
-    Distribution all;
-    for (std::size_t i = 0; i < hard.depths.size(); ++i) {
-        all.depths.push_back(caster(static_cast<double>(hard.depths[i])));
-        all.weights.push_back(weightAt(i));
-    }
-    return all;
-}
-
-Wide unit(Wide visibility) {
-    return std::clamp(visibility, static_cast<Wide>(0), static_cast<Wide>(1));
-}
-
-Wide chebyshev(Wide mean, Wide variance, Wide depth) {
-    if (depth <= mean) return 1;
-    return variance / (variance + (depth - mean) * (depth - mean));
-}
-
-Wide parameter(const Technique& technique, const char* name) {
-    return technique.standardParameters()[technique.parameterSlot(name).value()];
-}
-
-Wide depthOf(const Technique& technique, double receiver, Wide error) {
-    const auto slot = technique.parameterSlot("bias_depth");
-    const Wide bias = slot ? technique.standardParameters()[*slot] : 0;
-    return std::min(static_cast<Wide>(receiver), static_cast<Wide>(1)) - error - bias;
-}
-
-Wide variance(const Technique& technique, const Distribution& all, Wide depth) {
-    const Wide mean = all.mean([](Wide z) { return z; });
-    const Wide about = all.mean([&](Wide z) { return (z - mean) * (z - mean); });
-    return chebyshev(mean, std::max(about, parameter(technique, "least_variance")), depth);
-}
-
-Wide exponential(const Technique& technique, const Distribution& all, Wide depth) {
-    const Wide c = parameter(technique, "exponent");
-    return unit(all.mean([&](Wide z) { return std::exp(c * (z - depth)); }));
-}
-
-/// One of the two bounds; a negative exponent warps down.
-Wide warped(const Technique& technique, const Distribution& all, Wide depth, Wide exponent) {
-    const auto warp = [&](Wide z) {
-        return std::copysign(std::exp(exponent * (2 * z - 1)), exponent);
-    };
-    const Wide mean = all.mean(warp);
-    const Wide about = all.mean([&](Wide z) { return (warp(z) - mean) * (warp(z) - mean); });
-    const Wide least = 2 * parameter(technique, "least_deviation") * exponent * warp(depth);
-    return chebyshev(mean, std::max(about, least * least), warp(depth));
-}
-
-/// The extremal distribution through `depth` of four moments, in central form: its other two points
-/// are the roots of the polynomial of degree 2 that is orthogonal to all of degree 1 under the
-/// weight (z - depth).
-Wide hamburger(const Technique& technique, const Distribution& all, Wide depth) {
-    const Wide alpha = parameter(technique, "moment_bias");
-    const auto z = [](Wide x) { return 2 * x - 1; };
-    const Wide towards[5] = {1, 0, 0.628L, 0, 0.628L};
-    Wide b[5];
-    for (int k = 0; k < 5; ++k)
-        b[k] =
-            (1 - alpha) * all.mean([&](Wide x) { return std::pow(z(x), k); }) + alpha * towards[k];
-    const Wide d = z(depth);
-    // m_k of the weight; p z + q with m_2 + p m_1 + q m_0 = 0 and m_3 + p m_2 + q m_1 = 0.
-    Wide m[4];
-    for (int k = 0; k < 4; ++k) m[k] = b[k + 1] - d * b[k];
-    const Wide determinant = m[1] * m[1] - m[0] * m[2];
-    const Wide p = (m[0] * m[3] - m[1] * m[2]) / determinant;
-    const Wide q = (m[2] * m[2] - m[1] * m[3]) / determinant;
-    const Wide root = std::sqrt(std::max(p * p / 4 - q, static_cast<Wide>(0)));
-    const Wide points[3] = {d, -p / 2 - root, -p / 2 + root};
-    Wide shadow = 0;
-    for (int i = 1; i < 3; ++i) {
-        if (points[i] >= d) continue;
-        const Wide r = points[3 - i];
-        shadow += (b[2] - (d + r) * b[1] + d * r) / ((points[i] - d) * (points[i] - r));
-    }
-    return unit(1 - shadow);
-}
-
-/// The series, term by term on every depth.
-Wide series(const Technique& technique, const Distribution& all, Wide depth) {
-    const int terms = static_cast<int>(parameter(technique, "terms"));
-    const auto moved = [](Wide z) { return 0.05L + 0.9L * z; };
-    const Wide step = all.mean([&](Wide z) {
-        Wide sum = 0.5L;
-        for (int k = 1; k <= terms; ++k) {
-            const Wide c = std::numbers::pi_v<Wide> * (2 * k - 1);
-            const Wide share = static_cast<Wide>(k) / terms;
-            sum += 2 * std::exp(-parameter(technique, "damping") * share * share) *
-                   std::sin(c * (moved(z) - moved(std::max(depth, static_cast<Wide>(0))))) / c;
-        }
-        return sum;
-    });
-    return unit(step * parameter(technique, "scale"));
-}
-
-Wide layered(const Technique& technique, const Distribution& all, Wide depth) {
-    const Wide layers = parameter(technique, "layers");
-    if (depth <= 0) return 1;
-    const Wide last = std::min(std::ceil(depth * layers), layers) - 1;
-    Wide bound = 1;
-    for (Wide layer = 0; layer <= last; ++layer) {
-        const auto warp = [&](Wide z) { return unit(z * layers - layer); };
-        const Wide mean = all.mean(warp);
-        const Wide about = all.mean([&](Wide z) { return (warp(z) - mean) * (warp(z) - mean); });
-        bound = std::min(
-            bound,
-            chebyshev(mean, std::max(about, parameter(technique, "least_variance")), warp(depth)));
-    }
-    return bound;
-}
-
-Wide powerFunction(const Distribution& all, Wide depth) {
-    const Wide mean = all.mean([](Wide z) { return z; });
-    const Wide range = all.greatest() - all.least();
-    if (depth <= mean) return 1;
-    if (depth >= all.greatest()) return 0;
-    const Wide beta = (mean - all.least()) / (all.greatest() - mean);
-    const Wide t = (depth - all.least()) / range;
-    const Wide m = beta / (beta + 1);
-    return unit(std::expm1(beta * std::log(t)) / std::expm1(beta * std::log(m)));
-}
-
-/// Absent for a technique whose kernel is no box or that samples it at places of its own.
-std::optional<Wide> formula(const Technique& technique, const HardCase& hard, double receiver,
-                            Wide error) {
-    const Distribution all = distributionOf(hard);
-    const Wide depth = depthOf(technique, receiver, error);
-    const std::string_view file = technique.fileName();
-    if (file == "hard")
-        return caster(static_cast<double>(hard.depths[hard.depths.size() / 2])) >= depth ? 1 : 0;
-    if (file == "vsm") return variance(technique, all, depth);
-    if (file == "esm") return exponential(technique, all, depth);
-    if (file == "evsm2")
-        return warped(technique, all, depth, parameter(technique, "positive_exponent"));
-    if (file == "evsm4")
-        return std::min(warped(technique, all, depth, parameter(technique, "positive_exponent")),
-                        warped(technique, all, depth, -parameter(technique, "negative_exponent")));
-    if (file == "msm" || file == "msm16") return hamburger(technique, all, depth);
-    if (file == "csm") return series(technique, all, depth);
-    if (file == "lvsm") return layered(technique, all, depth);
-    if (file == "power_cdf") return powerFunction(all, depth);
-    return std::nullopt;
 }
 
 template <class Real>
 void widen(HardError& found, const Technique& technique, const HardCase& hard,
-           renderer::Storage storage) {
-    DepthMap map(kEdge, [](double, double) { return 0; });
+           const Variant& variant, renderer::Storage storage) {
+    DepthMap map(hard.edge, [](double, double) { return 0; });
     map.texels = hard.depths;
     renderer::ParameterValues parameters = technique.standardParameters();
-    if (technique.parameterSlot("derivative")) setParameter(technique, parameters, "derivative", 0);
-    const auto constants = constantsFor(technique, kEdge, kRadius, parameters);
+    for (const char* unknown : {"derivative", "rotated"})  // to exact_technique.h
+        if (technique.parameterSlot(unknown)) setParameter(technique, parameters, unknown, 0);
+    for (const auto& [name, value] : variant) setParameter(technique, parameters, name, value);
+    const auto constants = constantsFor(technique, hard.edge, hard.radiusUv, parameters);
     const CpuTechnique<Real> filter(technique, map, constants, storage);
-    const CpuTechnique<double> exact(technique, map, constants, renderer::Storage::exact);
-    for (const double depth : hard.receivers) {
-        const auto receiver = receiverAt(0.5, 0.5, depth);
-        const auto expected =
-            formula(technique, hard, depth, static_cast<Wide>(receiver.depthError));
-        const double truth = expected ? static_cast<double>(*expected) : exact(receiver);
+    const CpuTechnique<double> wide(technique, map, constants, renderer::Storage::exact);
+    for (const HardReceiver& at : hard.receivers) {
+        const auto receiver = receiverAt(0.5, 0.5, at.depth, at.gradient);
+        const auto exact = exactVisibility(technique, map, receiver, constants);
+        const double truth = exact ? static_cast<double>(*exact) : wide(receiver);
         const double error = std::abs(filter(receiver) - truth);
         if (error <= found.worst) continue;
         char text[64];
-        std::snprintf(text, sizeof text, "%s, receiver %.6g", hard.name.c_str(), depth);
+        std::snprintf(text, sizeof text, "%s, receiver %.6g", hard.name.c_str(), at.depth);
         found = {error, text};
     }
 }
@@ -244,6 +75,35 @@ std::string toText(Precision precision) {
     return "unknown precision";
 }
 
+std::string toText(const Variant& variant) {
+    std::string text;
+    for (const auto& [name, value] : variant) {
+        char number[32];
+        std::snprintf(number, sizeof number, "%g", static_cast<double>(value));
+        text += (text.empty() ? "" : " ") + std::string(name) + "=" + number;
+    }
+    return text;
+}
+
+std::vector<Variant> variantsOf(const Technique& technique) {
+    const std::string_view file = technique.fileName();
+    if (file == "pcf_grid")
+        return {{}, {{"bilinear", 0}}, {{"gaussian", 1}}, {{"bilinear", 0}, {"gaussian", 1}}};
+    if (file == "pcf_taps") return {{}, {{"pattern", 0}}, {{"bilinear", 0}}};
+    if (file == "gsm")
+        return {{},
+                {{"gradient", 0}},
+                {{"gradient", 1}},
+                {{"gradient", 1}, {"pattern", 1}},
+                {{"gradient", 1}, {"pattern", 2}},
+                {{"gradient", 1}, {"pattern", 1}, {"offsets", 0}}};
+    if (file == "vsm") return {{}, {{"bleeding", 0.3F}}};
+    if (file == "lvsm") return {{}, {{"layers", 1}}, {{"layers", 16}}};
+    if (file == "power_cdf") return {{}, {{"layers", 4}}, {{"layers", 16}}};
+    if (file == "csm") return {{}, {{"terms", 1}, {"damping", 0}}};
+    return {{}};
+}
+
 std::vector<HardCase> hardCases() {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -256,14 +116,19 @@ std::vector<HardCase> hardCases() {
             std::move(name), [=](int i) { return i % every == 0 ? low : high; },
             around({low, 0.5 * (low + high), high}));
     };
+    const auto twoDepths = [](int i) { return i % 2 == 0 ? 0.3 : 0.7; };
+    const auto slope = [](int i) { return 0.4 + 0.02 * (i % kEdge); };
     return {
         flat("flat", 0.4),
         flat("flat at the light", 0),
         flat("flat near the far end", 0.9996),
         flat("cleared", 1),
+        caseOf("no blockers", [](int) { return 0.8; }, {{0.1}, {0.5}, {0.79}}),
         split("two depths", 0.3, 0.7, 2),
         split("two depths 1e-6 apart", 0.5, 0.500001, 2),
         split("two depths near 1", 0.95, 0.999, 2),
+        caseOf("contact", [](int i) { return i % 2 == 0 ? 0.5 : 0.52; },
+               {{0.505}, {0.51}, {0.515}, {0.53}}),
         split("one blocker texel (b to infinity)", 0.2, 0.8, 1000),
         split("blocker at the light", 0, 0.6, 3),
         caseOf(
@@ -274,10 +139,14 @@ std::vector<HardCase> hardCases() {
         caseOf(
             "three occluders over a receiver", [](int i) { return 0.2 * (1 + i % 4); },
             around({0.2, 0.4, 0.6, 0.8})),
-        caseOf(
-            "slope", [](int i) { return 0.4 + 0.02 * (i % kEdge); }, around({0.4, 0.48, 0.56})),
+        caseOf("slope", slope, around({0.4, 0.48, 0.56})),
+        caseOf("slope, receiver's plane along it", slope, around({0.48}, {0.02 * kEdge, 0})),
+        caseOf("slope, receiver's plane nearly along the map", slope,
+               around({0.48}, {1e-30, -1e-20})),
         caseOf(
             "steep slope", [](int i) { return 0.1 + 0.1 * (i % kEdge); }, around({0.1, 0.5, 0.9})),
+        caseOf(
+            "grazing receiver", [](int) { return 0.5; }, around({0.5}, {30, -7})),
         caseOf(
             "no number, out of range",
             [=](int i) {
@@ -285,16 +154,21 @@ std::vector<HardCase> hardCases() {
                 return odd[i % 6];
             },
             around({0.2, 0.5, 0.8})),
+        caseOf(
+            "map of one texel", [](int) { return 0.5; }, around({0.5}), 1, 0.3),
+        caseOf("kernel of no width", twoDepths, around({0.3, 0.7}), kEdge, 0),
+        caseOf("kernel of less than a texel", twoDepths, around({0.3, 0.7}), kEdge, 0.45 / kEdge),
+        caseOf("kernel wider than the map", twoDepths, around({0.3, 0.7}), kEdge, 2.5),
     };
 }
 
-HardError worstError(const Technique& technique, Precision precision) {
+HardError worstError(const Technique& technique, Precision precision, const Variant& variant) {
     HardError found;
     for (const HardCase& hard : hardCases()) {
         if (precision == Precision::doubles)
-            widen<double>(found, technique, hard, renderer::Storage::exact);
+            widen<double>(found, technique, hard, variant, renderer::Storage::exact);
         else
-            widen<float>(found, technique, hard,
+            widen<float>(found, technique, hard, variant,
                          precision == Precision::half ? renderer::Storage::half
                                                       : renderer::Storage::asFormat);
     }

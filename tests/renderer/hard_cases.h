@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Where shadow techniques break: distributions of depth under the kernel that are flat, nearly
-// flat, concentrated, near the ends of the range or out of it, each with receivers at, just before
-// and behind every depth that matters. And how far a technique is off there from its own
-// mathematics at the precision of long double.
+// flat, concentrated, near the ends of the range or out of it, maps of one texel, kernels of no
+// width and wider than the map, receivers that graze the light, each with receivers at, just before
+// and behind every depth that matters. And how far a technique is off there from its own formula in
+// long double (exact_technique.h).
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "renderer/cpu_filter.h"
+#include "tests/renderer/technique_case.h"
 
 namespace tests {
 
-/// A 9 x 9 map, row by row, and the receivers to hold over its middle.
+struct HardReceiver {
+    double depth = 0;
+    glm::dvec2 gradient = glm::dvec2(0);
+};
+
+/// A square map, row by row, and the receivers to hold over its middle texel.
 struct HardCase {
     std::string name;
+    int edge = 9;
+    double radiusUv = 0;
     std::vector<float> depths;
-    std::vector<double> receivers;
+    std::vector<HardReceiver> receivers;
 };
 std::vector<HardCase> hardCases();
 
@@ -30,14 +40,19 @@ inline constexpr Precision kPrecisions[] = {Precision::half, Precision::asStored
                                             Precision::doubles};
 std::string toText(Precision precision);
 
+/// Parameters that are not the defaults.
+using Variant = std::vector<std::pair<std::string_view, float>>;
+/// Every one of a technique that chooses between formulas, and the defaults first.
+std::vector<Variant> variantsOf(const renderer::Technique& technique);
+std::string toText(const Variant& variant);
+
 struct HardError {
     double worst = 0;
     std::string where;  ///< case and receiver
 };
-/// Over all cases: the largest difference in visibility from the technique's own formula, evaluated
-/// in long double on exact moments of the same depths, at default parameters (but without the
-/// variance of a texel's own slope, which the distribution does not have). Techniques that
-/// compare depths one by one are held against themselves in double.
-HardError worstError(const renderer::Technique& technique, Precision precision);
+/// Over all cases: the largest difference in visibility from the technique's formula in long
+/// double, and in double where it has none there.
+HardError worstError(const renderer::Technique& technique, Precision precision,
+                     const Variant& variant = {});
 
 }  // namespace tests

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "renderer/cpu_filter.h"
+#include "renderer/layer_placement.h"
 #include "renderer/prefilter.h"
 
 namespace tests {
@@ -54,6 +55,9 @@ inline DepthMap halfPlane(int n, double angleDeg, double phase, double near = 0,
     });
 }
 
+/// Of a technique that would choose its layers by the map: as many, of equal shares.
+inline constexpr int kEvenLayers = 4;
+
 inline renderer::f64::ShadowConstants constantsFor(const renderer::Technique& technique, int n,
                                                    double radiusUv,
                                                    const renderer::ParameterValues& parameters) {
@@ -64,6 +68,10 @@ inline renderer::f64::ShadowConstants constantsFor(const renderer::Technique& te
         c.parameters[i / 4][static_cast<int>(i % 4)] = static_cast<double>(parameters[i]);
     c.prefilter =
         glm::dvec4(prefilterConstants(technique, parameters, static_cast<float>(radiusUv), 0, n));
+    if (const auto slot = technique.parameterSlot("layers")) {
+        const int asked = static_cast<int>(parameters[*slot]);
+        useLayers(technique, renderer::evenLayers(asked == 0 ? kEvenLayers : asked), c);
+    }
     return c;
 }
 
@@ -78,6 +86,7 @@ inline renderer::f32::ShadowConstants toFloat(const renderer::f64::ShadowConstan
     f.kernel = glm::vec4(c.kernel);
     for (int i = 0; i < 2; ++i) f.parameters[i] = glm::vec4(c.parameters[i]);
     f.prefilter = glm::vec4(c.prefilter);
+    for (int i = 0; i < 4; ++i) f.layerEnds[i] = glm::vec4(c.layerEnds[i]);
     return f;
 }
 
