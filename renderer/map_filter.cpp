@@ -45,6 +45,7 @@ void MapFilter::prepare(const Technique& technique) {
     if (convert.name() == 0)
         convert = makeProgram(shaders_, "passes/fullscreen.vert", "passes/map_texel.frag",
                               techniqueOptions(technique));
+    if (technique.prefilter == Prefilter::converted) return;
     Program& line = linePrograms_.at(static_cast<std::size_t>(technique.prefilter));
     if (line.name() == 0)
         line = makeProgram(

@@ -21,7 +21,9 @@ constexpr float kGuardBeyondReach = 2;
 glm::vec4 prefilterConstants(const Technique& technique, const ParameterValues& parameters,
                              float radiusUv, float minRadiusUv, int resolution) {
     if (technique.prefilter == Prefilter::none) return glm::vec4(0);
-    const float radius = std::max(fraction(radiusUv), fraction(minRadiusUv));
+    const float radius = technique.prefilter == Prefilter::converted
+                             ? 0
+                             : std::max(fraction(radiusUv), fraction(minRadiusUv));
     const auto gaussian = technique.parameterSlot("gaussian");
     f32::ShadowConstants constants{};
     constants.prefilter.x = 0.5F * radius * static_cast<float>(resolution);

@@ -498,6 +498,8 @@ std::string_view toText(Prefilter prefilter) {
             return "separable mean of exponentials, in logarithms";
         case Prefilter::minMaxMean:
             return "separable mean, least and greatest";
+        case Prefilter::converted:
+            return "none; texels converted";
     }
     return "unknown prefilter";
 }

@@ -30,8 +30,9 @@ int bytesPerTexel(MapFormat format);
 
 /// What is done to the map between depth pass and lookup: nothing, or a separable kernel over the
 /// map's values, over the exponentials of which it stores the logarithm, or one that also finds the
-/// least and the greatest. The numbers are those of shared/filtered_map.glsl.
-enum class Prefilter { none = 0, mean = 1, logMean = 2, minMaxMean = 3 };
+/// least and the greatest; or each texel is converted by itself and the lookup has the kernel. The
+/// numbers are those of shared/filtered_map.glsl.
+enum class Prefilter { none = 0, mean = 1, logMean = 2, minMaxMean = 3, converted = 4 };
 std::string_view toText(Prefilter prefilter);
 
 /// What every technique promises (METHODS section 6); a row names the ones that do not hold for it.

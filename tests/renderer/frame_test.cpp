@@ -247,7 +247,8 @@ TEST(MapFilter, GpuAgreesWithCpuTexelForTexel) {
              {std::pair{100, 0.01F}, {48, 0.05F}, {1, 0.3F}, {40, 0.0F}, {24, 1.0F}}) {
             for (const float gaussian : {0.0F, 1.0F}) {
                 renderer::ParameterValues parameters = technique.standardParameters();
-                setParameter(technique, parameters, "gaussian", gaussian);
+                if (technique.parameterSlot("gaussian"))
+                    setParameter(technique, parameters, "gaussian", gaussian);
                 frame.render({.technique = &technique,
                               .parameters = parameters,
                               .resolution = n,
@@ -507,6 +508,25 @@ TEST(Frame, RefusesSettingsOutOfRange) {
     EXPECT_THROW(frame.resize(0, 9), std::invalid_argument);
     EXPECT_THROW(frame.setSun({.elevationDeg = -3}), std::invalid_argument);
     EXPECT_EQ(message({.resolution = 8}), "nothing was thrown") << "and it goes on working";
+}
+
+// Mesa refuses sizes that it could never hold; a real lack of memory goes the same way.
+TEST(Frame, SaysWhichTextureTheDriverRefusesAndGoesOn) {
+    const auto message = [](const auto& call) -> std::string {
+        try {
+            call();
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "nothing was thrown";
+    };
+    EXPECT_THAT(message([] { renderer::makeTextureArray(GL_RGBA32F, 8192, 2048, "stack"); }),
+                HasSubstr("texture \"stack\" of 8192 x 8192 texels: the driver refuses it"));
+    const int wider = 2 * gl().maxResolution;
+    EXPECT_THAT(message([&] { renderer::makeTexture(GL_R32F, wider, 1, "map"); }),
+                HasSubstr("texture \"map\" of " + std::to_string(wider) + " x 1 texels"));
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 16, 9);
+    EXPECT_NO_THROW(frame.render({.resolution = 64}));
 }
 
 TEST(Frame, ClockTimesThePassesThatTheFrameHad) {

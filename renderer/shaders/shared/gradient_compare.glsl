@@ -43,11 +43,11 @@ SHARED_FUNCTION real2 neighbourGradient(sampler2D map, real2 uv, ShadowConstants
     return real2(depth.x - depth.y, depth.z - depth.w) * (real(0.5) * shadow.map.x);
 }
 
-// Light behind a depth: all of it before, none from one texel's slope behind on, and without a slope a step.
-SHARED_FUNCTION real4 fuzzyVisibility4(real4 beyond, real slope) {
-    if (!(slope > real(0.0))) return real4(1.0) - real4(lessThan(beyond, real4(0.0)));
-    real4 lit = real4(1.0) + beyond / slope;
-    return real4(unitRange(lit.x), unitRange(lit.y), unitRange(lit.z), unitRange(lit.w));
+// Light where the map lies `beyond` a receiver: all of it there, none from one texel's slope before it on, and without a
+// slope a step.
+SHARED_FUNCTION real fuzzyVisibility(real beyond, real slope) {
+    if (!(slope > real(0.0))) return beyond < real(0.0) ? real(0.0) : real(1.0);
+    return unitRange(real(1.0) + beyond / slope);
 }
 
 // Patterns of taps in the unit disc, each with the disc's deviation but for the scatter of Poisson's.
@@ -112,7 +112,9 @@ SHARED_FUNCTION real gradientVisibility(sampler2D map, real2 uv, real radius, re
         real4 y = real4(first.y, second.y, third.y, fourth.y);
         real4 compared = min(real4(depth) + x * follow.x + y * follow.y, real4(1.0));
         real4 weight = real4(1.0, i + 1 < n ? 1.0 : 0.0, i + 2 < n ? 1.0 : 0.0, i + 3 < n ? 1.0 : 0.0);
-        lit += dot(fuzzyVisibility4(filteredDepth4(map, uv, x, y, shadow) - compared, slope), weight);
+        real4 beyond = filteredDepth4(map, uv, x, y, shadow) - compared;
+        lit += dot(weight, real4(fuzzyVisibility(beyond.x, slope), fuzzyVisibility(beyond.y, slope),
+                                 fuzzyVisibility(beyond.z, slope), fuzzyVisibility(beyond.w, slope)));
     }
     return unitRange(lit / real(n));
 }
