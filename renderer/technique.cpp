@@ -130,6 +130,9 @@ constexpr TechniqueParameter kGradientParameters[] = {
      .low = 0.1F,
      .high = 100,
      .standard = 4}};
+constexpr TechniqueParameter kStoredGradientParameters[] = {
+    kGradientParameters[0], kGradientParameters[2], kGradientParameters[3], kGradientParameters[5]};
+constexpr Property kStoredGradientDoesNot[] = {Property::errorFallsWithN, Property::planeLit};
 
 /// vsm.glsl. The floor of the variance lies above what rounding makes of it: some steps of the mean
 /// square, each 2^-24 near 1 in 32 bits and 2^-12 in 16.
@@ -343,6 +346,17 @@ constexpr Technique kTechniques[] = {
      .doNotHold = kTapsDoNot,
      .doNotHoldBecause = kTapsDoNotBecause,
      .cost = "4 texels a tap, 8 with regression; independent of N"},
+    {.name = "gsm_stored",
+     .title = "Gradient PCF, stored gradient",
+     .paper = "Schueler 2006, Multisampling extension for gradient shadow maps",
+     .format = MapFormat::rgba32f,
+     .prefilter = Prefilter::converted,
+     .parameters = kStoredGradientParameters,
+     .doNotHold = kStoredGradientDoesNot,
+     .doNotHoldBecause =
+         "a fixed number of samples does not see more of a finer map; at a surface's rim "
+         "the stored slope is partly that of what lies behind it",
+     .cost = "4 texels a tap and 4 more, each four times as large; independent of N"},
     {.name = "vsm",
      .title = "Variance, 32 bits",
      .paper = kVariancePaper,
