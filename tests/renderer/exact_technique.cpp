@@ -213,8 +213,10 @@ Wide powerFunction(const Situation& s, const Distribution& all, Wide depth) {
 
 std::optional<Wide> filteredVisibility(const Situation& s) {
     const Distribution all = underTheBox(s);
-    const Wide span =
-        s.parameter("bias_texels") + s.parameterOr("bias_reaches", 0) * (boxReach(s.constants) + 1);
+    // Texel centres to either side that the box touches, and one that the lookup between texels
+    // adds.
+    const Wide farthest = std::ceil(std::max(boxReach(s.constants) - 0.5L, 0.0L)) + 1;
+    const Wide span = s.parameter("bias_texels") + s.parameterOr("bias_reaches", 0) * farthest;
     const Wide depth = std::min(static_cast<Wide>(s.receiver.depth), static_cast<Wide>(1)) -
                        s.receiver.depthError - s.parameterOr("bias_depth", 0) -
                        span * s.steepness() / s.map.edge;

@@ -195,7 +195,7 @@ void expectNoDarkerThanTheKernel(const Technique& technique,
             }
         }
     };
-    check.template operator()<double>(1e-9);
+    check.template operator()<double>(1e-6);  // the kernel's reach is a float
     check.template operator()<float>(floatSlack);
 }
 
@@ -231,16 +231,16 @@ TEST(TechniqueProperty, VarianceOfAPlanarOccluderOverAPlanarReceiverIsPcf) {
             const double plane = random(occluder + 0.1, 0.95);
             const double share = random();
             const Map map(9, [&](double, double) { return random() < share ? occluder : plane; });
-            auto receiver = receiverAt(0.5, 0.5, plane);
-            receiver.depthError = 0;
-            const double found = CpuTechnique<Real>(vsm, map, constants, Storage::exact)(receiver);
+            const CpuTechnique<Real> filter(vsm, map, constants, Storage::exact);
+            const double found = filter(receiverAt(0.5, 0.5, plane));
             // The map holds floats: the plane may be stored a rounding step before the receiver.
             ASSERT_NEAR(found, litShare(map, plane - 1e-7), slack) << "trial " << trial;
         }
     };
-    check.template operator()<double>(2e-6);
-    // Cancellation in the mean square: 2^-23 over the square of the least distance.
-    check.template operator()<float>(1e-4);
+    // The receiver's depth error, 2e-6, over the least distance and the least share in shadow; and
+    // the cancellation in the mean square, 2^-23 over the square of that distance.
+    check.template operator()<double>(1e-4);
+    check.template operator()<float>(1e-3);
 }
 
 TEST(TechniqueProperty, PlanesDoNotShadowThemselvesAtAnyTilt) {

@@ -5,7 +5,7 @@
 // Source: R. Fernando, "Percentage-closer soft shadows", SIGGRAPH 2005 sketches. In distances from the light, n of the
 // near plane, b of the blockers' mean and d of the receiver, and with a light of radius l in uv of the near plane,
 // blockers are looked for within l (d - n) / d and the penumbra's radius is l (d - b) / b x n / d. With z = (distance -
-// n) / (far - n), spread s = (far - n) / n and softness t = l / s that is
+// n) / (far - n), spread s = (far - n) / n and softness t = l s that is
 //   t z / (1 + s z)   and   t (z - zb) / ((1 + s zb) (1 + s z)),
 // which also holds for the sun, a disc at infinity: s = 0 and t the tangent of its angular radius, in units of the map.
 // A blocker before the near plane lies on it: zb >= 0.

@@ -150,12 +150,12 @@ SHARED_FUNCTION bool reachesFilteredMap(real2 uv, ShadowConstants shadow) {
 }
 
 // The depth that a receiver is compared at: its own, less what float32, the map's rounding (depthBias) and the kernel
-// may have moved it by. texels and reaches count along the receiver's plane, reaches in reaches of the kernel with the
-// texel that the bilinear lookup adds: a plane that rises towards the light lies before its own point by up to one
-// reach. Never beyond 1, so that a cleared map is lit.
+// may have moved it by. texels and reaches count along the receiver's plane, reaches in distances to the farthest texel
+// centre that the kernel counts, with the texel that the bilinear lookup adds: a plane that rises towards the light lies
+// before its own point by up to one reach. Never beyond 1, so that a cleared map is lit.
 SHARED_FUNCTION real biasedDepth(ShadowReceiver receiver, ShadowConstants shadow, real texels, real reaches,
                                  real depthBias) {
-    real span = (texels + reaches * (kernelReach(shadow) + real(1.0))) * shadow.map.y;
+    real span = (texels + reaches * real(kernelTaps(shadow) + 1)) * shadow.map.y;
     real steepness = abs(receiver.depthGradient.x) + abs(receiver.depthGradient.y);
     return min(receiver.depth, real(1.0)) - receiver.depthError - depthBias - span * steepness;
 }

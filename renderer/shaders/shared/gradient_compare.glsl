@@ -76,8 +76,9 @@ SHARED_FUNCTION real3 inverseCovariance(int pattern) {
     return real3(0.0);
 }
 
-// d depth / d uv of the plane that fits all taps best: the average gradient of the kernel, which rings less at concave
-// corners than the one at its middle.
+// d depth / d uv of the plane that fits all taps best: the average gradient of the kernel. Under a kernel of about a
+// texel, the paper's, concave corners are less dark with it than with the gradient of the receiver; under wider ones
+// and between walls that face each other they are darker.
 SHARED_FUNCTION real2 regressedGradient(sampler2D map, real2 uv, real radius, int pattern, int n,
                                         ShadowConstants shadow) {
     if (!(radius > real(0.0))) return real2(0.0);
