@@ -216,7 +216,7 @@ std::optional<Wide> filteredVisibility(const Situation& s) {
     // Texel centres to either side that the box touches, and one that the lookup between texels
     // adds.
     const Wide farthest = std::ceil(std::max(boxReach(s.constants) - 0.5L, 0.0L)) + 1;
-    const Wide span = s.parameter("bias_texels") + s.parameterOr("bias_reaches", 0) * farthest;
+    const Wide span = s.parameterOr("bias_texels", 0) + s.parameterOr("bias_reaches", 0) * farthest;
     const Wide depth = std::min(static_cast<Wide>(s.receiver.depth), static_cast<Wide>(1)) -
                        s.receiver.depthError - s.parameterOr("bias_depth", 0) -
                        span * s.steepness() / s.map.edge;
@@ -365,6 +365,24 @@ Wide depthAt(const Situation& s, Wide u, Wide v) {
     });
 }
 
+/// Each texel's own slope, to the neighbour that is nearer in depth, between texels.
+Place storedSlope(const Situation& s) {
+    const auto at = [&](int i, int j) {
+        return s.inside(i, j) ? caster(s.stored(i, j)) : static_cast<Wide>(1);
+    };
+    const auto smaller = [](Wide a, Wide b) { return std::abs(a) < std::abs(b) ? a : b; };
+    const Wide u = s.receiver.uv.x;
+    const Wide v = s.receiver.uv.y;
+    const Wide n = s.map.edge;
+    return {n * bilinear(s, u, v,
+                         [&](int i, int j) {
+                             return smaller(at(i + 1, j) - at(i, j), at(i, j) - at(i - 1, j));
+                         }),
+            n * bilinear(s, u, v, [&](int i, int j) {
+                return smaller(at(i, j + 1) - at(i, j), at(i, j) - at(i, j - 1));
+            })};
+}
+
 Place slopeOfTheMap(const Situation& s, const std::vector<Place>& taps, Wide radius) {
     const Wide u = s.receiver.uv.x;
     const Wide v = s.receiver.uv.y;
@@ -399,7 +417,10 @@ Wide gradientShadow(const Situation& s) {
                                       : poisson(i));
     }
     Place g{s.receiver.depthGradient.x, s.receiver.depthGradient.y};
-    if (s.parameter("gradient") != 2) g = slopeOfTheMap(s, taps, radius);
+    if (s.technique.fileName() == "gsm_stored")
+        g = storedSlope(s);
+    else if (s.parameter("gradient") != 2)
+        g = slopeOfTheMap(s, taps, radius);
     const Wide size = std::hypot(g.x, g.y);
     const Wide cut = size > 0 ? std::min(size, s.parameter("most_slope")) / size : 0;
     g = {g.x * cut, g.y * cut};
@@ -408,7 +429,8 @@ Wide gradientShadow(const Situation& s) {
                        s.receiver.depthError - s.parameter("bias") * slope;
     Wide lit = 0;
     for (const Place& tap : taps) {
-        const Wide follow = s.parameter("offsets") != 0 ? radius * (tap.x * g.x + tap.y * g.y) : 0;
+        const Wide follow =
+            s.parameterOr("offsets", 1) != 0 ? radius * (tap.x * g.x + tap.y * g.y) : 0;
         const Wide above =
             depthAt(s, s.receiver.uv.x + tap.x * radius, s.receiver.uv.y + tap.y * radius) -
             std::min(depth + follow, static_cast<Wide>(1));
@@ -423,13 +445,13 @@ std::optional<long double> exactVisibility(const Technique& technique, const Dep
                                            const Receiver& receiver, const Constants& constants) {
     const Situation s{technique, map, receiver, constants};
     const std::string_view file = technique.fileName();
+    if (file == "gsm" || file == "gsm_stored") return gradientShadow(s);
     if (technique.prefilter != renderer::Prefilter::none) return filteredVisibility(s);
     if (file == "hard") return compared(s, map.edge / 2, map.edge / 2);
     if (file == "pcf_disc") return disc(s, kernelRadius(s));
     if (file == "pcf_grid") return grid(s);
     if (file == "pcf_taps") return taps(s);
     if (file == "pcss") return softShadow(s);
-    if (file == "gsm") return gradientShadow(s);
     return std::nullopt;
 }
 

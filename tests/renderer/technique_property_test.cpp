@@ -164,24 +164,28 @@ TEST(TechniqueProperty, FartherReceiversAreNeverLighter) {
     }
 }
 
-/// Share of the 8.5 x 8.5 texels around the middle of a 9 x 9 map that lie at `depth` or behind it.
+/// Share of the texels under the box of radiusOfAll() over a map's middle that lie at `depth` or
+/// behind it.
 double litShare(const Map& map, double depth) {
-    const auto weight = [](int i) { return i % 8 == 0 ? 0.75 : 1; };
+    const auto weight = [&](int i) { return i % (map.edge - 1) == 0 ? 0.75 : 1; };
     double lit = 0;
-    for (int j = 0; j < 9; ++j)
-        for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < map.edge; ++j)
+        for (int i = 0; i < map.edge; ++i)
             if (static_cast<double>(map.view().at(i, j)) >= depth)
-                lit += weight(i) * weight(j) / (8.5 * 8.5);
+                lit += weight(i) * weight(j) / ((map.edge - 0.5) * (map.edge - 0.5));
     return lit;
 }
-const double kRadiusOfAll = 4.25 / 9 * 2 / std::sqrt(3.0);
+/// Of the box that holds the whole map, three quarters of its rim.
+double radiusOfAll(int edge) {
+    return (0.5 * edge - 0.25) / edge * 2 / std::sqrt(3.0);
+}
 
 /// In double and float, with exact storage: rounded moments are those of no depths.
 void expectNoDarkerThanTheKernel(const Technique& technique,
                                  const renderer::ParameterValues& parameters, double floatSlack) {
     const auto check = [&]<class Real>(double slack) {
         Random random(6);
-        const auto constants = constantsFor(technique, 9, kRadiusOfAll, parameters);
+        const auto constants = constantsFor(technique, 9, radiusOfAll(9), parameters);
         for (int trial = 0; trial < kMaps; ++trial) {
             const int depths = random.whole(1, 81);
             const Map map(9, [&](double, double) {
@@ -223,14 +227,16 @@ TEST(TechniqueProperty, VarianceOfAPlanarOccluderOverAPlanarReceiverIsPcf) {
     renderer::ParameterValues parameters = vsm.standardParameters();
     setParameter(vsm, parameters, "least_variance", 0);
     setParameter(vsm, parameters, "derivative", 0);
-    const auto constants = constantsFor(vsm, 9, kRadiusOfAll, parameters);
+    constexpr int kEdge = 5;
+    const auto constants = constantsFor(vsm, kEdge, radiusOfAll(kEdge), parameters);
     const auto check = [&]<class Real>(double slack) {
         Random random(8);
         for (int trial = 0; trial < 100000 / kShare; ++trial) {
             const double occluder = random(0, 0.8);
             const double plane = random(occluder + 0.1, 0.95);
             const double share = random();
-            const Map map(9, [&](double, double) { return random() < share ? occluder : plane; });
+            const Map map(kEdge,
+                          [&](double, double) { return random() < share ? occluder : plane; });
             const CpuTechnique<Real> filter(vsm, map, constants, Storage::exact);
             const double found = filter(receiverAt(0.5, 0.5, plane));
             // The map holds floats: the plane may be stored a rounding step before the receiver.
