@@ -2,7 +2,10 @@
 #include "demo/error_metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/quality/qualityssim.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -10,15 +13,30 @@
 #include "renderer/shader_math.h"
 
 namespace demo {
+namespace {
 
-VisibilityError compareVisibility(const renderer::FloatImage& image,
-                                  const renderer::FloatImage& reference) {
+void throwUnlessAlike(const renderer::FloatImage& image, const renderer::FloatImage& reference) {
     if (image.width != reference.width || image.height != reference.height ||
         image.channels != reference.channels)
         throw std::invalid_argument(
             "visibility error: image is " + std::to_string(image.width) + " x " +
             std::to_string(image.height) + ", reference " + std::to_string(reference.width) +
             " x " + std::to_string(reference.height) + "; they must be of one size");
+}
+
+/// As 8-bit codes without their rounding: the metric's constants are those of codes.
+cv::Mat codes(const renderer::FloatImage& image) {
+    cv::Mat all(image.height, image.width, CV_32F);
+    std::transform(image.values.begin(), image.values.end(), all.begin<float>(),
+                   [](float value) { return 255 * value; });
+    return all;
+}
+
+}  // namespace
+
+VisibilityError compareVisibility(const renderer::FloatImage& image,
+                                  const renderer::FloatImage& reference) {
+    throwUnlessAlike(image, reference);
     std::vector<double> sizes;
     double sum = 0;
     double squares = 0;
@@ -50,6 +68,33 @@ VisibilityError compareVisibility(const renderer::FloatImage& image,
             .shareBeyondLevel = shareBeyond(1.0 / 255),
             .shareBeyond2Percent = shareBeyond(0.02),
             .shareBeyond5Percent = shareBeyond(0.05)};
+}
+
+double temporalError(const FramePair& frames) {
+    throwUnlessAlike(frames.before, frames.now);
+    throwUnlessAlike(frames.truthBefore, frames.before);
+    throwUnlessAlike(frames.truthNow, frames.now);
+    double squares = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < frames.now.values.size(); ++i) {
+        const std::array<float, 4> values = {frames.before.values[i], frames.now.values[i],
+                                             frames.truthBefore.values[i],
+                                             frames.truthNow.values[i]};
+        const double change = (static_cast<double>(values[1]) - static_cast<double>(values[0])) -
+                              (static_cast<double>(values[3]) - static_cast<double>(values[2]));
+        if (std::none_of(values.begin(), values.end(), renderer::f32::inPenumbra) &&
+            std::abs(change) <= renderer::f64::kVisibleShare)
+            continue;
+        squares += change * change;
+        ++count;
+    }
+    return count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
+}
+
+double structuralSimilarity(const renderer::FloatImage& image,
+                            const renderer::FloatImage& reference) {
+    throwUnlessAlike(image, reference);
+    return cv::quality::QualitySSIM::compute(codes(image), codes(reference), cv::noArray())[0];
 }
 
 }  // namespace demo

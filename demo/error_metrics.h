@@ -29,4 +29,22 @@ struct VisibilityError {
 VisibilityError compareVisibility(const renderer::FloatImage& image,
                                   const renderer::FloatImage& reference);
 
+/// A frame and the one before it, with the truth of both.
+struct FramePair {
+    const renderer::FloatImage& before;
+    const renderer::FloatImage& now;
+    const renderer::FloatImage& truthBefore;
+    const renderer::FloatImage& truthNow;
+};
+/// Flicker and crawl: RMS of what changed from frame to frame less what changed in the truth, over
+/// the pixels that are in penumbra in any of the four or change otherwise than the truth does. 0
+/// where there are none. Throws std::invalid_argument for images of different size.
+double temporalError(const FramePair& frames);
+
+/// Mean structural similarity of two visibility images (Wang, Bovik, Sheikh, Simoncelli 2004, as
+/// OpenCV's quality module has it); 1 for equal ones. Throws std::invalid_argument for images of
+/// different size.
+double structuralSimilarity(const renderer::FloatImage& image,
+                            const renderer::FloatImage& reference);
+
 }  // namespace demo

@@ -7,19 +7,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/demo/flat_places.h"
+
 namespace {
 
 using demo::compareVisibility;
 using demo::VisibilityError;
 using renderer::FloatImage;
-
-template <class Value>
-FloatImage imageOf(int width, int height, const Value& value) {
-    FloatImage image(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) image.at(x, y) = static_cast<float>(value(x, y));
-    return image;
-}
+using tests::imageOf;
 
 /// Dark left of column 100, lit right of column 200, a ramp between them.
 double ramp(double x) {
@@ -109,6 +104,36 @@ TEST(VisibilityError, NoPenumbraIsNoErrorAndNaNIsNotHidden) {
     broken.at(3, 3) = NAN;
     EXPECT_TRUE(std::isnan(compareVisibility(broken, lit).rmse));
     EXPECT_EQ(compareVisibility(broken, lit).most, INFINITY);
+}
+
+TEST(TemporalError, IsWhatChangesOtherwiseThanTheTruth) {
+    const auto moved = [](double by) {
+        return imageOf(300, 4, [&](int x, int) { return ramp(x - by); });
+    };
+    // An image with a lasting error that moves as the truth does does not flicker.
+    EXPECT_NEAR(demo::temporalError({moved(5), moved(7), moved(0), moved(2)}), 0, 1e-3);
+    // A shift by 2 px too much is .02 on a ramp of slope .01.
+    EXPECT_NEAR(demo::temporalError({moved(0), moved(4), moved(0), moved(2)}), 0.02, 1e-3);
+    const FloatImage still = moved(0);
+    EXPECT_EQ(demo::temporalError({still, still, still, still}), 0);
+    const FloatImage lit = imageOf(300, 4, [](int, int) { return 1; });
+    EXPECT_EQ(demo::temporalError({lit, lit, lit, lit}), 0);
+    EXPECT_THROW(demo::temporalError({lit, FloatImage(2, 2), lit, lit}), std::invalid_argument);
+}
+
+TEST(StructuralSimilarity, Is1ForEqualImagesAndFallsWithNoise) {
+    const FloatImage image = imageOf(64, 64, [](int x, int) { return ramp(5 * x); });
+    EXPECT_NEAR(demo::structuralSimilarity(image, image), 1, 1e-6);
+    double last = 1;
+    for (const double amplitude : {0.01, 0.05, 0.2}) {
+        const double similarity = demo::structuralSimilarity(
+            imageOf(64, 64,
+                    [&](int x, int y) { return ramp(5 * x) + ((x + y) % 2 ? 1 : -1) * amplitude; }),
+            image);
+        EXPECT_LT(similarity, last);
+        last = similarity;
+    }
+    EXPECT_THROW(demo::structuralSimilarity(image, FloatImage(64, 63)), std::invalid_argument);
 }
 
 TEST(VisibilityError, RefusesImagesOfDifferentSize) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "demo/frame_facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "demo/demand_glsl.h"
+#include "demo/map_places.h"
+#include "demo/shadow_run.h"
+#include "renderer/demand_pass.h"
+
+namespace demo {
+namespace {
+
+// Submissions that together ask one pixel in four.
+constexpr int kSubmissions = renderer::DemandPass::kCellEdge * renderer::DemandPass::kCellEdge / 4;
+
+std::size_t coveredPixels(renderer::Renderer& frame) {
+    const renderer::FloatImage places = mapPlaces(frame);
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < places.values.size(); i += 4) {
+        const auto inside = [&](MapPlace channel) {
+            const float at = places.values[i + static_cast<std::size_t>(channel)];
+            return at >= 0 && at <= 1;
+        };
+        covered += places.values[i + kPlaceIsSurface] != 0 && inside(kPlaceU) && inside(kPlaceV);
+    }
+    return covered;
+}
+
+}  // namespace
+
+FrameFacts frameFacts(renderer::Renderer& frame, const resolution_controller::Slope& slope) {
+    const renderer::Scene& scene = frame.scene();
+    const glm::vec3 middle = 0.5F * (scene.casters.low + scene.casters.high);
+    const double radiusM =
+        0.5 * static_cast<double>(glm::distance(scene.casters.low, scene.casters.high));
+    FrameFacts facts;
+    facts.screenEdgePx = std::max(frame.widthPx(), frame.heightPx());
+    facts.coveredPx = static_cast<double>(coveredPixels(frame));
+    facts.mapExtentM = frame.window().extentM;
+    // Within the casters' sphere there is no distance to it.
+    facts.distanceM =
+        std::max(static_cast<double>(glm::distance(scene.camera.eye(), middle)), 0.1 * radiusM);
+    const double field =
+        static_cast<double>(scene.camera.verticalFieldDeg) * std::numbers::pi / 180;
+    const double pixelsPerTangent = 0.5 * frame.heightPx() / std::tan(0.5 * field);
+    facts.casterRadiusPx = pixelsPerTangent * radiusM / facts.distanceM;
+    facts.slope = slope;
+    auto pass =
+        std::make_shared<renderer::DemandPass>(renderer::ShaderLibrary::embedded(), kDemandGlsl);
+    facts.demand = [pass, &frame](const resolution_controller::DemandRule& rule) {
+        resolution_controller::DemandHistogram sum;
+        for (int i = 0; i < kSubmissions; ++i) {
+            pass->submit(frame,
+                         {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster});
+            glFinish();
+            const auto reading = pass->newest();
+            if (!reading) continue;
+            for (std::size_t bin = 0; bin < sum.counts.size(); ++bin)
+                sum.counts[bin] += reading->counters[bin];
+            sum.rejected += reading->counters.back();
+        }
+        return sum;
+    };
+    return facts;
+}
+
+}  // namespace demo

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Sizing policies at equal quality, from a measured sweep: each policy's one parameter is set so
+// that the edge ripple of 95 % of the contour pixels of all scenes' paths meets the same bound, and
+// what is left to compare is the time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "demo/sizing_policy.h"
+#include "demo/sweep_table.h"
+
+namespace demo {
+
+inline constexpr double kRippleBound = 0.13;
+
+/// What a policy gives for one technique with one value of its parameter.
+struct PolicyResult {
+    const SizingPolicy* policy = nullptr;
+    std::string technique;
+    int step = 0;  ///< policyParameter(policy->standard, step)
+    double parameter = 0;
+
+    double rippleP95 = 0;
+    double worstRmse = 0;           ///< of a frame
+    std::vector<double> sceneMs;    ///< mean frame time of each scene; NaN where not measured
+    std::vector<double> sceneRmse;  ///< worst frame of each scene
+    double geometricMeanMs = 0;     ///< over the scenes; NaN where one was not measured
+    int smallest = 0, largest = 0;  ///< sizes taken
+    std::string missing;            ///< what was not measured, empty: nothing
+
+    bool complete() const { return missing.empty(); }
+};
+
+/// A policy with a parameter, or with a fixed sequence where there is no policy: evaluates the
+/// sizes of that step in every frame.
+PolicyResult evaluate(const SweepTable& table, const SizingPolicy& policy,
+                      const std::string& technique, int step);
+
+/// The fastest parameter that keeps to the bound; absent where none does.
+std::optional<PolicyResult> calibrated(const SweepTable& table, const SizingPolicy& policy,
+                                       const std::string& technique, double bound = kRippleBound);
+
+/// One technique's row of the comparison.
+struct PolicyComparison {
+    std::string technique;
+    struct Entry {
+        const SizingPolicy* policy = nullptr;
+        std::optional<PolicyResult> result;  ///< absent: it cannot keep to the bound
+        double timesOurs = 0;  ///< geometric mean of its time over ours; below 1 we lose
+    };
+    std::vector<Entry> entries;  ///< in the order of sizingPolicies()
+    std::optional<PolicyResult> ours;
+};
+std::vector<PolicyComparison> comparePolicies(const SweepTable& table, double bound = kRippleBound);
+
+/// The automatic policy with the slope c itself, and how its time and errors change with c.
+struct SlopeStep {
+    double c = 0;
+    PolicyResult result;
+};
+std::vector<SlopeStep> sweepOverSlope(const SweepTable& table, const std::string& technique,
+                                      const std::vector<double>& slopes);
+
+}  // namespace demo

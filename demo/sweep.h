@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The measured table behind the report: every frame of every scene's path x technique x map size,
+// what it costs and how wrong it is, and what each sizing policy would have taken there. Policies
+// are compared from this table (policy_comparison.h), so that all of them see the same
+// measurements.
+//
+// Three journals in the folder, which a killed sweep goes on with: sweep_times.tsv (one line per
+// visit of a cell), sweep_errors.tsv (one per cell), sweep_policies.tsv (one per frame and policy).
+// Shards write journals of their own, "sweep_times.2of8.tsv"; sweep_table.h reads whatever lies in
+// the folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "demo/loaded_slope.h"
+#include "records/run_context.h"
+#include "renderer/gl_context.h"
+#include "renderer/scene.h"
+#include "renderer/technique.h"
+
+namespace demo {
+
+struct Shard {
+    int index = 1, count = 1;  ///< 1 <= index <= count
+};
+/// "2/8". Throws std::invalid_argument that names `option`.
+Shard parseShard(const std::string& text, const std::string& option);
+
+struct SweepSettings {
+    std::vector<std::string> scenes;  ///< names
+    std::vector<const renderer::Technique*> techniques;
+    std::vector<int> sizes;  ///< levels, ascending; the largest that can be had is the reference
+    int frames = 3;          ///< of each scene's path, >= 1
+    int rounds = 3;          ///< timed visits of each cell, >= 1
+    int widthPx = 640, heightPx = 360;
+    double mostFrameMs = 4000;  ///< cells that are predicted to be slower are skipped, and named
+    Shard shard;
+    LoadedSlope slope;
+    std::filesystem::path folder;
+
+    /// Throws std::invalid_argument that names the field, its value and its range.
+    void validate() const;
+    /// What has to be the same for a sweep to go on.
+    std::string plan() const;
+};
+
+inline const std::vector<std::string> kSweepTimeColumns = {
+    "scene",    "frame",        "technique",  "resolution", "round",  "status",   "frame_ms",
+    "depth_ms", "prefilter_ms", "prepass_ms", "lookup_ms",  "lit_ms", "map_bytes"};
+inline const std::vector<std::string> kSweepErrorColumns = {"scene",
+                                                            "frame",
+                                                            "technique",
+                                                            "resolution",
+                                                            "reference",
+                                                            "radius_uv",
+                                                            "penumbra_px",
+                                                            "rmse",
+                                                            "max",
+                                                            "p95",
+                                                            "bias",
+                                                            "share_beyond_level",
+                                                            "share_beyond_2_percent",
+                                                            "share_beyond_5_percent",
+                                                            "ssim",
+                                                            "contour_px",
+                                                            "ripple_p95",
+                                                            "ripple_max",
+                                                            "edge_width_px",
+                                                            "reference_width_px",
+                                                            "edge_width_ratio",
+                                                            "thin_px",
+                                                            "thin_rmse",
+                                                            "thin_lost",
+                                                            "flicker_light",
+                                                            "flicker_orbit",
+                                                            "flicker_size",
+                                                            "ripple_counts"};
+inline const std::vector<std::string> kSweepPolicyColumns = {"scene", "frame", "technique",
+                                                             "policy", "sizes"};
+
+/// Ripples are kept as counts, one for each 8-bit level, so that those of many frames can be taken
+/// together; the last also counts what is larger.
+inline constexpr int kRippleBins = 256;
+
+/// A policy's parameter is tried at `standard` x 2^(step / 4), step = -kPolicySteps ..
+/// kPolicySteps.
+inline constexpr int kPolicySteps = 20;
+double policyParameter(double standard, int step);
+
+/// The scene as its path has it at frame i of n: camera paths first, then the light's.
+struct PathView {
+    renderer::OrbitCamera camera;
+    renderer::Sun sun;
+};
+PathView pathView(const renderer::Scene& scene, int frame, int frames);
+
+/// Measures what the journals do not hold yet. `context` goes into their heads. Throws
+/// std::runtime_error where the folder holds a sweep of another plan.
+void runSweep(const renderer::GlInfo& info, const SweepSettings& settings,
+              const records::RunContext& context);
+
+}  // namespace demo
