@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <tuple>
 
 #include "demo/demand_glsl.h"
 #include "demo/map_places.h"
-#include "demo/shadow_run.h"
 #include "renderer/demand_pass.h"
 
 namespace demo {
 namespace {
+
+namespace rc = resolution_controller;
 
 // Submissions that together ask one pixel in four.
 constexpr int kSubmissions = renderer::DemandPass::kCellEdge * renderer::DemandPass::kCellEdge / 4;
@@ -29,6 +32,34 @@ std::size_t coveredPixels(renderer::Renderer& frame) {
     }
     return covered;
 }
+
+/// Counts each rule once: policies that differ in their percentile alone ask the same.
+class DemandCounter {
+  public:
+    explicit DemandCounter(const renderer::Renderer& frame)
+        : frame_(frame), pass_(renderer::ShaderLibrary::embedded(), kDemandGlsl) {}
+
+    rc::DemandHistogram of(const rc::DemandRule& rule) {
+        const auto key = std::tuple(rule.c, rule.pixelBound, rule.contrastExponent);
+        const auto [found, isNew] = counted_.try_emplace(key);
+        for (int i = 0; isNew && i < kSubmissions; ++i) {
+            pass_.submit(frame_,
+                         {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster});
+            glFinish();
+            const auto reading = pass_.newest();
+            if (!reading) continue;
+            for (std::size_t bin = 0; bin < rc::DemandHistogram::kBins; ++bin)
+                found->second.counts[bin] += reading->counters[bin];
+            found->second.rejected += reading->counters.back();
+        }
+        return found->second;
+    }
+
+  private:
+    const renderer::Renderer& frame_;
+    renderer::DemandPass pass_;
+    std::map<std::tuple<float, float, float>, rc::DemandHistogram> counted_;
+};
 
 }  // namespace
 
@@ -49,22 +80,8 @@ FrameFacts frameFacts(renderer::Renderer& frame, const resolution_controller::Sl
     const double pixelsPerTangent = 0.5 * frame.heightPx() / std::tan(0.5 * field);
     facts.casterRadiusPx = pixelsPerTangent * radiusM / facts.distanceM;
     facts.slope = slope;
-    auto pass =
-        std::make_shared<renderer::DemandPass>(renderer::ShaderLibrary::embedded(), kDemandGlsl);
-    facts.demand = [pass, &frame](const resolution_controller::DemandRule& rule) {
-        resolution_controller::DemandHistogram sum;
-        for (int i = 0; i < kSubmissions; ++i) {
-            pass->submit(frame,
-                         {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster});
-            glFinish();
-            const auto reading = pass->newest();
-            if (!reading) continue;
-            for (std::size_t bin = 0; bin < sum.counts.size(); ++bin)
-                sum.counts[bin] += reading->counters[bin];
-            sum.rejected += reading->counters.back();
-        }
-        return sum;
-    };
+    auto counter = std::make_shared<DemandCounter>(frame);
+    facts.demand = [counter](const rc::DemandRule& rule) { return counter->of(rule); };
     return facts;
 }
 

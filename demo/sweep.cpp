@@ -102,19 +102,15 @@ class Sweep {
 
     void run() {
         const std::vector<Unit> units = shardOfUnits();
-        std::set<std::string> done = finishedVisits();
+        const std::set<std::string> done = measuredUnits();
         program::Progress progress("sweeping",
                                    units.size() * static_cast<std::size_t>(settings_.rounds));
         for (int round = 0; round < settings_.rounds; ++round)
             for (const Unit& unit : units) {
-                auto key = unit.key();
-                key.push_back(std::to_string(round));
-                if (!done.contains(joined(key))) {
-                    if (round == 0)
-                        measure(unit);
-                    else
-                        revisit(unit, round);
-                }
+                if (round > 0)
+                    revisit(unit, round);
+                else if (!done.contains(joined(unit.key())))
+                    measure(unit);
                 progress.advance();
             }
     }
@@ -142,17 +138,13 @@ class Sweep {
         return mine;
     }
 
-    /// The first round of a unit is done when its last journal has it, a later one when it has a
-    /// line of the times.
-    std::set<std::string> finishedVisits() const {
+    /// Units whose first round is in all journals.
+    std::set<std::string> measuredUnits() const {
         std::set<std::string> done;
-        const std::string last(sizingPolicies().back().name);
+        const std::string last(sizingPolicies().back().name);  // what is written last
         for (const TsvRow& row : policies_.table().rows())
             if (row.text("policy") == last)
-                done.insert(keyOf(row, {"scene", "frame", "technique"}) + "0\t");
-        for (const TsvRow& row : times_.table().rows())
-            if (row.whole("round") > 0)
-                done.insert(keyOf(row, {"scene", "frame", "technique", "round"}));
+                done.insert(keyOf(row, {"scene", "frame", "technique"}));
         return done;
     }
 
@@ -177,16 +169,17 @@ class Sweep {
                 .slope = settings_.slope.slope};
     }
 
-    /// A frame that is not timed, since it makes its maps and compiles its programs, then one that
-    /// is.
-    double timedFrame(const Unit& unit, int resolution) {
-        ShadowRun run(*frame_, info_, runSettings(unit, resolution));
+    /// The time of a frame after one that is not timed, since it makes its maps.
+    double timedFrame(ShadowRun& run, const Unit& unit, int resolution) const {
+        run.change(runSettings(unit, resolution));
         run.step();
         return run.timeWholeFrames(1).median;
     }
 
     void measure(const Unit& unit) {
         show(unit);
+        ShadowRun run(*frame_, info_, runSettings(unit, settings_.sizes.front()));
+        run.step();  // compiles the technique's programs
         std::vector<Measured> sizes;
         double last = 0;
         double growth = kMostGrowth;
@@ -200,8 +193,7 @@ class Sweep {
                 continue;
             }
             try {
-                measured.frameMs = timedFrame(unit, resolution);
-                ShadowRun run(*frame_, info_, runSettings(unit, resolution));
+                measured.frameMs = timedFrame(run, unit, resolution);
                 measured.passes = run.timePasses(1);
                 measured.mapBytes = frame_->mapBytes();
                 measured.visibility = frame_->readVisibility();
@@ -219,15 +211,16 @@ class Sweep {
     }
 
     void revisit(const Unit& unit, int round) {
+        const std::vector<int> sizes = sizesToRevisit(unit, round);
+        if (sizes.empty()) return;
         show(unit);
-        const auto spent = spentMs(unit);
-        for (const int resolution : settings_.sizes) {
-            const auto found = spent.find(resolution);
-            if (found == spent.end() || (round > 1 && found->second > kMostCellMs)) continue;
+        ShadowRun run(*frame_, info_, runSettings(unit, sizes.front()));
+        run.step();
+        for (const int resolution : sizes) {
             Measured measured;
             measured.resolution = resolution;
             try {
-                measured.frameMs = timedFrame(unit, resolution);
+                measured.frameMs = timedFrame(run, unit, resolution);
                 measured.mapBytes = frame_->mapBytes();
             } catch (const std::runtime_error& error) {
                 measured.status = std::string("failed: ") + error.what();
@@ -236,14 +229,23 @@ class Sweep {
         }
     }
 
-    /// Time that the visits of each size took so far; sizes that were skipped or failed are absent.
-    std::map<int, double> spentMs(const Unit& unit) const {
-        std::map<int, double> spent;
+    /// Those that were measured, are not too slow, and were not visited in this round before a
+    /// kill.
+    std::vector<int> sizesToRevisit(const Unit& unit, int round) const {
+        std::map<int, double> spentMs;
+        std::set<int> visited;
         const std::string key = joined(unit.key());
-        for (const TsvRow& row : times_.table().rows())
-            if (row.text("status") == "ok" && keyOf(row, {"scene", "frame", "technique"}) == key)
-                spent[row.whole("resolution")] += 2 * row.number("frame_ms");
-        return spent;
+        for (const TsvRow& row : times_.table().rows()) {
+            if (keyOf(row, {"scene", "frame", "technique"}) != key) continue;
+            const int resolution = row.whole("resolution");
+            if (row.whole("round") == round) visited.insert(resolution);
+            if (row.text("status") == "ok") spentMs[resolution] += 2 * row.number("frame_ms");
+        }
+        std::vector<int> sizes;
+        for (const auto& [resolution, ms] : spentMs)
+            if (!visited.contains(resolution) && (round == 1 || ms <= kMostCellMs))
+                sizes.push_back(resolution);
+        return sizes;
     }
 
     void writeTime(const Unit& unit, int round, const Measured& measured) {

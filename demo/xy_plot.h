@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Points and lines over two logarithmic axes, as an SVG picture on white paper.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace demo {
+
+struct PlotSeries {
+    std::string name;                               ///< in the legend; empty: not in it
+    std::vector<std::pair<double, double>> points;  ///< what is not above 0 and finite is left out
+    bool line = false;                              ///< joins the points, without marks
+    bool grey = false;                              ///< drawn below the others
+};
+
+struct Plot {
+    std::string title, xLabel, yLabel;
+    std::vector<PlotSeries> series;
+};
+
+/// An empty frame where there is no point.
+std::string plotSvg(const Plot& plot);
+
+}  // namespace demo

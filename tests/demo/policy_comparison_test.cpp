@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Policies over a made-up sweep whose answer is known: the time of a size is its edge in ms, its
+// ripple falls with it, and one of two scenes needs twice the size of the other.
+#include "demo/policy_comparison.h"
+
+#include <gmock/gmock.h>
+
+#include "demo/speed_error_front.h"
+#include "demo/sweep_difference.h"
+#include "demo/sweep_report.h"
+#include "demo/tsv_journal.h"
+#include "records/whole_file.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<int> kSizes = {128, 256, 512, 1024, 2048};
+
+struct MadeUp {
+    double slower = 1;  ///< factor of all times
+    double worse = 0;   ///< added to all errors
+    bool skipLargest = false;
+    bool broken = false;  ///< NaN in place of the errors at 1024
+};
+
+/// Needed sizes: 256 in "small", 1024 in "large"; there a ripple of 25.5/255 = .1 is left.
+void writeSweep(const std::filesystem::path& folder, const MadeUp& sweep) {
+    demo::TsvJournal times(folder / "sweep_times.tsv", demo::kSweepTimeColumns, "made up");
+    demo::TsvJournal errors(folder / "sweep_errors.tsv", demo::kSweepErrorColumns, "made up");
+    demo::TsvJournal policies(folder / "sweep_policies.tsv", demo::kSweepPolicyColumns, "made up");
+    for (const auto& [scene, need] : {std::pair{"small", 256}, std::pair{"large", 1024}}) {
+        for (const int size : kSizes) {
+            const bool skipped = sweep.skipLargest && size == kSizes.back();
+            for (int round = 0; round < 3; ++round)
+                times.add({scene, "0", "pcf_disc", std::to_string(size), std::to_string(round),
+                           skipped ? "skipped: predicted 9999 ms a frame" : "ok",
+                           skipped ? "n/a" : demo::tsvNumber(sweep.slower * size), "1", "n/a", "1",
+                           "1", "1", "4"});
+            if (skipped) continue;
+            std::vector<std::string> row = {scene, "0", "pcf_disc", std::to_string(size),
+                                            std::to_string(kSizes.back())};
+            row.resize(demo::kSweepErrorColumns.size() - 1, "0.01");
+            row[7] =
+                sweep.broken && size == 1024 ? "n/a" : demo::tsvNumber(sweep.worse + 10.0 / size);
+            const int level = std::min(255, 26 * need / size);
+            std::string counts;
+            for (int i = 0; i < level; ++i) counts += "0,";
+            row.push_back(counts + "100");
+            errors.add(row);
+        }
+        for (const demo::SizingPolicy& policy : demo::sizingPolicies()) {
+            // Ours follows the need; all others take one size everywhere.
+            std::string sizes;
+            for (int step = -demo::kPolicySteps; step <= demo::kPolicySteps; ++step) {
+                int at = 512;
+                if (policy.ours)
+                    at = step < 0 ? need / 2 : step == 0 ? need : 2 * need;
+                else if (step > 0)
+                    at = 1024;
+                sizes += (sizes.empty() ? "" : ",") + std::to_string(at);
+            }
+            policies.add({scene, "0", "pcf_disc", std::string(policy.name), sizes});
+        }
+    }
+}
+
+class PolicyComparisonOf : public testing::Test {
+  protected:
+    demo::SweepTable sweep(const MadeUp& madeUp) {
+        const auto at = folder_.path() / std::to_string(count_++);
+        writeSweep(at, madeUp);
+        last_ = at;
+        return demo::readSweep(at);
+    }
+    tests::TemporaryFolder folder_;
+    std::filesystem::path last_;
+    int count_ = 0;
+};
+
+TEST_F(PolicyComparisonOf, IsTheRatioOfTimesAtEqualRipple) {
+    const auto all = demo::comparePolicies(sweep({}));
+    ASSERT_EQ(all.size(), 1U);
+    ASSERT_TRUE(all[0].ours.has_value());
+    EXPECT_EQ(all[0].ours->smallest, 256);
+    EXPECT_EQ(all[0].ours->largest, 1024);
+    EXPECT_EQ(all[0].ours->step, 0);
+    EXPECT_NEAR(all[0].ours->rippleP95, 26.5 / 255, 1e-9);
+    EXPECT_NEAR(all[0].ours->geometricMeanMs, 512, 1e-6);  // of 256 and 1024
+    for (const auto& entry : all[0].entries) {
+        ASSERT_TRUE(entry.result.has_value()) << entry.policy->name;
+        EXPECT_NEAR(entry.timesOurs, entry.policy->ours ? 1 : 2, 1e-6) << entry.policy->name;
+    }
+}
+
+TEST_F(PolicyComparisonOf, ACheatThatTakesTheTruthsSizeIsCaughtByItsCost) {
+    const demo::SweepTable table = sweep({});
+    // The largest size everywhere: no ripple at all, and dear.
+    const demo::PolicyResult ours = *demo::calibrated(table, demo::automaticPolicy(), "pcf_disc");
+    EXPECT_LT(table.find("small", 0, "pcf_disc", 2048)->ripples.size(), ours.rippleP95 * 255);
+    EXPECT_GT(table.find("small", 0, "pcf_disc", 2048)->frameMs.median, 2 * ours.geometricMeanMs);
+    const auto all = demo::speedAndErrors(table, "");
+    for (const auto& point : all) EXPECT_NE(point.resolution, 2048) << "the reference is no choice";
+}
+
+TEST_F(PolicyComparisonOf, ABoundThatNobodyKeepsSaysSo) {
+    const auto all = demo::comparePolicies(sweep({}), 0.001);
+    EXPECT_FALSE(all[0].ours.has_value());
+    for (const auto& entry : all[0].entries) EXPECT_FALSE(entry.result.has_value());
+}
+
+TEST_F(PolicyComparisonOf, WhatWasNotMeasuredIsNamed) {
+    const demo::SweepTable table = sweep({.skipLargest = true});
+    const demo::PolicyResult result =
+        demo::evaluate(table, demo::automaticPolicy(), "pcf_disc", demo::kPolicySteps);
+    EXPECT_FALSE(result.complete());
+    EXPECT_THAT(result.missing, HasSubstr("large frame 0 at 2048: skipped"));
+}
+
+TEST_F(PolicyComparisonOf, TheFrontHasWhatNothingBeats) {
+    const demo::SweepTable table = sweep({});
+    auto all = demo::speedAndErrors(table, "small");
+    ASSERT_EQ(all.size(), kSizes.size() - 1);
+    for (const auto& point : all) EXPECT_FALSE(point.dominated);
+    EXPECT_EQ(demo::recommended(all, {.mostError = 0.02})->resolution, 512);
+    EXPECT_EQ(demo::recommended(all, {.mostMs = 300})->resolution, 256);
+    EXPECT_EQ(demo::recommended(all, {.mostError = 0.001}), nullptr);
+}
+
+TEST_F(PolicyComparisonOf, ComparedSweepsDifferBeyondNoiseAlone) {
+    const demo::SweepTable before = sweep({});
+    EXPECT_TRUE(demo::slowerOrWorse(before, sweep({})).empty());
+    EXPECT_TRUE(demo::slowerOrWorse(before, sweep({.slower = 0.5})).empty());
+    const auto slower = demo::slowerOrWorse(before, sweep({.slower = 1.3}));
+    EXPECT_EQ(slower.size(), 2 * kSizes.size());
+    EXPECT_EQ(slower.at(0).what, "slower");
+    const auto worse = demo::slowerOrWorse(before, sweep({.worse = 0.02}));
+    EXPECT_EQ(worse.size(), 2 * kSizes.size());
+    EXPECT_EQ(worse.at(0).what, "worse");
+    const auto missing = demo::slowerOrWorse(before, sweep({.skipLargest = true}));
+    EXPECT_EQ(missing.size(), 2U);
+    EXPECT_EQ(missing.at(0).what, "missing");
+}
+
+TEST_F(PolicyComparisonOf, ABrokenTechniqueIsTheFirstThingInTheReport) {
+    EXPECT_TRUE(demo::brokenTechniques(sweep({})).empty());
+    const demo::SweepTable broken = sweep({.broken = true});
+    ASSERT_EQ(demo::brokenTechniques(broken).size(), 1U);
+    const auto file = demo::writeSweepReport(last_, broken, std::nullopt);
+    const std::string page = records::readWholeFile(file);
+    EXPECT_THAT(page, HasSubstr("BROKEN"));
+    EXPECT_LT(page.find("BROKEN"), page.find("the speed"));
+    EXPECT_THAT(page, HasSubstr("<svg"));
+    EXPECT_TRUE(std::filesystem::exists(last_ / "policies.tsv"));
+    EXPECT_TRUE(std::filesystem::exists(last_ / "front.tsv"));
+}
+
+TEST_F(PolicyComparisonOf, AFolderWithoutASweepIsAnError) {
+    EXPECT_THROW(demo::readSweep(folder_.path() / "nothing"), std::runtime_error);
+}
+
+TEST(SizingPolicy, TakesLevelsWithinTheLimits) {
+    demo::FrameFacts facts;
+    facts.coveredPx = 90000;
+    facts.mapExtentM = 8;
+    facts.distanceM = 10;
+    facts.casterRadiusPx = 200;
+    facts.screenEdgePx = 640;
+    facts.demand = [](const resolution_controller::DemandRule& rule) {
+        resolution_controller::DemandHistogram histogram;
+        for (int i = 0; i < 100; ++i) histogram.add(rule.c * 100);
+        return histogram;
+    };
+    const auto size = [&](const char* policy, double parameter) {
+        return demo::chosenSize(demo::findSizingPolicy(policy), facts, parameter, 128, 4096);
+    };
+    EXPECT_EQ(size("fixed", 300), 368);
+    EXPECT_EQ(size("coverage", 2), 1024);  // 600, a power of two
+    EXPECT_EQ(size("texels_per_pixel", 1), 512);
+    EXPECT_EQ(size("distance", 1000), 1024);
+    EXPECT_EQ(size("paper", 3.47), 368);  // 347
+    EXPECT_EQ(size("percentile", 3.47), 368);
+    EXPECT_EQ(size("fixed", 1), 128);
+    EXPECT_EQ(size("fixed", 1e9), 4096);
+    for (const demo::SizingPolicy& policy : demo::sizingPolicies()) {
+        int last = 0;
+        for (int step = -demo::kPolicySteps; step <= demo::kPolicySteps; ++step) {
+            const int now = demo::chosenSize(
+                policy, facts, demo::policyParameter(policy.standard, step), 128, 4096);
+            EXPECT_GE(now, last) << policy.name << ": a larger parameter takes a smaller map";
+            last = now;
+        }
+    }
+    EXPECT_THROW(demo::findSizingPolicy("nope"), std::invalid_argument);
+}
+
+}  // namespace

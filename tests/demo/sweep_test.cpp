@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// shadow_bench --sweep as its user runs it: a tiny sweep, killed, gone on with, in two shards.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "demo/sweep_table.h"
+#include "demo/tsv_journal.h"
+#include "records/whole_file.h"
+#include "tests/run_command.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::string> tinySweep(const std::filesystem::path& out,
+                                   std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"--sweep",
+                                          "--out",
+                                          out.string(),
+                                          "--scenes",
+                                          "planar_occluder",
+                                          "--techniques",
+                                          "pcf_disc,vsm",
+                                          "--sizes",
+                                          "64,128",
+                                          "--frames",
+                                          "1",
+                                          "--rounds",
+                                          "2",
+                                          "--width",
+                                          "160",
+                                          "--height",
+                                          "90"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+TEST(Sweep, MeasuresEveryCellAndReports) {
+    const tests::TemporaryFolder folder;
+    const auto result = tests::runProgram("shadow_bench", tinySweep(folder.path()));
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("report: "));
+    const demo::SweepTable table = demo::readSweep(folder.path());
+    ASSERT_EQ(table.cells.size(), 4U);
+    for (const demo::SweepCell& cell : table.cells) {
+        EXPECT_EQ(cell.status, "ok");
+        EXPECT_EQ(cell.frameMs.count, 2);
+        EXPECT_GT(cell.frameMs.median, 0);
+        EXPECT_EQ(cell.reference, 128);
+        EXPECT_EQ(cell.rmse == 0, cell.resolution == 128);
+        EXPECT_EQ(cell.rippleMost == 0, cell.resolution == 128);
+        EXPECT_GE(cell.flickerLight, 0);
+    }
+    EXPECT_EQ(table.policySizes.size(), 2 * demo::sizingPolicies().size());
+
+    // Nothing is left to measure.
+    const std::string times = records::readWholeFile(folder.path() / "sweep_times.tsv");
+    ASSERT_EQ(tests::runProgram("shadow_bench", tinySweep(folder.path())).exitCode, 0);
+    EXPECT_EQ(records::readWholeFile(folder.path() / "sweep_times.tsv"), times);
+
+    // Killed in the middle of the second round's first line of a unit.
+    const auto file = folder.path() / "sweep_times.tsv";
+    const std::string kept = times.substr(0, times.rfind("planar_occluder"));
+    records::writeWholeFile(file, kept.substr(0, kept.rfind("planar_occluder") + 7));
+    ASSERT_EQ(tests::runProgram("shadow_bench", tinySweep(folder.path())).exitCode, 0);
+    const demo::SweepTable again = demo::readSweep(folder.path());
+    for (const demo::SweepCell& cell : again.cells) EXPECT_EQ(cell.frameMs.count, 2);
+
+    auto differently = tinySweep(folder.path());
+    differently.back() = "80";
+    EXPECT_THAT(tests::runProgram("shadow_bench", differently).err, HasSubstr("another plan"));
+
+    const auto compared = tests::runProgram(
+        "shadow_bench", {"--compare", folder.path().string(), folder.path().string()});
+    EXPECT_THAT(compared.out, HasSubstr("0 slower, worse or missing"));
+    const auto recommended = tests::runProgram(
+        "shadow_bench",
+        {"--recommend", folder.path().string(), "--scene", "planar_occluder", "--max-error", "1"});
+    EXPECT_THAT(recommended.out, HasSubstr(" at 64: "));
+}
+
+TEST(Sweep, ShardsTogetherAreTheWhole) {
+    const tests::TemporaryFolder folder;
+    for (const char* shard : {"1/2", "2/2"}) {
+        const auto result =
+            tests::runProgram("shadow_bench", tinySweep(folder.path(), {"--shard", shard}));
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+    }
+    EXPECT_EQ(demo::readSweep(folder.path()).cells.size(), 4U);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "sweep_times.2of2.tsv"));
+    const auto report = tests::runProgram("shadow_bench", tinySweep(folder.path(), {"--report"}));
+    EXPECT_EQ(report.exitCode, 0) << report.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "sweep.html"));
+}
+
+TEST(Sweep, RefusesBadInputInOneSentence) {
+    const tests::TemporaryFolder folder;
+    const std::string out = folder.path().string();
+    for (const auto& [arguments, sentence] :
+         std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--sweep", "--out", out, "--shard", "3/2"}, "--shard is \"3/2\""},
+             {{"--sweep", "--out", out, "--shard", "x"}, "--shard is \"x\""},
+             {{"--sweep", "--out", out, "--sizes", "100,200"}, "sizes has 100"},
+             {{"--sweep", "--out", out, "--sizes", "256,128"}, "ascending"},
+             {{"--sweep", "--out", out, "--frames", "0"}, "frames is 0"},
+             {{"--sweep", "--out", out, "--most-ms", "-1"}, "must be greater than 0"},
+             {{"--sweep", "--report", "--out", out + "/none"}, "there is no sweep"},
+             {{"--compare", out, out}, "there is no sweep"},
+             {{"--recommend", out}, "there is no sweep"}}) {
+        const auto result = tests::runProgram("shadow_bench", arguments);
+        EXPECT_EQ(result.exitCode, 1) << sentence;
+        EXPECT_THAT(result.err, HasSubstr(sentence));
+    }
+}
+
+}  // namespace
