@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "demo/growth_exponent.h"
 #include "demo/policy_comparison.h"
 #include "demo/speed_error_front.h"
 #include "demo/tsv_journal.h"
@@ -191,6 +192,37 @@ void addCosts(records::HtmlPage& page, Tables& tables, const SweepTable& table) 
                "than a quarter of the median.");
 }
 
+// Below, fixed costs of a pass hide how it grows.
+constexpr int kLeastGrowingSize = 512;
+
+void addGrowth(records::HtmlPage& page, Tables& tables, const SweepTable& table) {
+    page.heading("How cost grows with N");
+    std::vector<std::vector<std::string>> rows;
+    for (const std::string& scene : table.scenes)
+        for (const std::string& technique : table.techniques) {
+            std::vector<std::string> row = {scene, technique};
+            // Depth, prefilter and lookup.
+            for (const std::size_t pass : {std::size_t{0}, std::size_t{1}, std::size_t{3}}) {
+                std::vector<std::pair<double, double>> points;
+                for (const SweepCell& cell : table.cells)
+                    if (cell.scene == scene && cell.technique == technique && cell.measured() &&
+                        cell.resolution >= kLeastGrowingSize)
+                        points.emplace_back(cell.resolution, cell.passMs[pass]);
+                const GrowthExponent growth = growthExponent(points);
+                row.push_back(growth.points == 0 ? "n/a" : formatted("%.2f", growth.exponent));
+                row.push_back(growth.points == 0 ? "n/a" : formatted("%.2f", growth.residual));
+            }
+            rows.push_back(std::move(row));
+        }
+    tables.add(
+        "growth",
+        {"scene", "technique", "depth", "off by", "prefilter", "off by ", "lookup", "off by  "},
+        rows,
+        "Exponents e of time = k N^e at constant softness, from N = 512 on, over all frames "
+        "of the path, and the RMS by which times are off the power, as a share. Expected: "
+        "full-kernel lookups grow with 2, separable prefilters with 3.");
+}
+
 void addRipples(records::HtmlPage& page, const SweepTable& table) {
     page.heading("Stair-steps against r/a");
     Plot plot{.title = "Edge ripple over filter radius in texels",
@@ -295,6 +327,7 @@ fs::path writeSweepReport(const fs::path& folder, const SweepTable& table,
     addRipples(page, table);
     addErrors(page, tables, table);
     addCosts(page, tables, table);
+    addGrowth(page, tables, table);
     if (stability) {
         page.heading("Numerical stability");
         page.preformatted(records::readWholeFile(*stability));
