@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "analysis/distributions.h"
+#include "quest/observer_screening.h"
 
 namespace analysis {
 namespace {
@@ -37,30 +36,14 @@ bool atLimit(const Cell& cell) {
            static_cast<double>(limited) >= kShareAtLimit * static_cast<double>(placed);
 }
 
-std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-    return text;
-}
-
 std::string brokenRule(const ScreenedObserver& row, records::Task task,
                        const ScreeningRules& rules) {
-    if (task == records::Task::yesNo) {
-        if (row.references == 0) return "no reference trial, so the false-alarm rate is unknown";
-        if (row.falseAlarmLowerBound > rules.limits.falseAlarmRate) {
-            return std::to_string(row.falseAlarms) + " false alarms in " +
-                   std::to_string(row.references) + " reference trials: lower " +
-                   percent(rules.falseAlarmConfidence) + " bound " +
-                   percent(row.falseAlarmLowerBound) + ", limit " +
-                   percent(rules.limits.falseAlarmRate);
-        }
-        return "";
-    }
-    if (row.catchFailures > rules.limits.catchFailureShare * row.catchTrials) {
-        return std::to_string(row.catchFailures) + " of " + std::to_string(row.catchTrials) +
-               " catch trials failed, limit " + percent(rules.limits.catchFailureShare);
-    }
-    return "";
+    const quest::ScreeningLimits limits{.falseAlarmRate = rules.limits.falseAlarmRate,
+                                        .catchFailureShare = rules.limits.catchFailureShare};
+    return task == records::Task::yesNo
+               ? quest::falseAlarmProblem(row.falseAlarms, row.references, limits,
+                                          rules.falseAlarmConfidence)
+               : quest::catchProblem(row.catchFailures, row.catchTrials, limits);
 }
 
 }  // namespace
@@ -72,8 +55,8 @@ std::vector<ScreenedObserver> screen(const Study& study, const ScreeningRules& r
             .id = observer.id,
             .references = observer.references,
             .falseAlarms = observer.falseAlarms,
-            .falseAlarmLowerBound = rateLowerBound(observer.falseAlarms, observer.references,
-                                                   rules.falseAlarmConfidence),
+            .falseAlarmLowerBound = quest::rateLowerBound(observer.falseAlarms, observer.references,
+                                                          rules.falseAlarmConfidence),
             .catchTrials = observer.catchTrials,
             .catchFailures = observer.catchFailures};
         for (const Cell& cell : observer.cells) {

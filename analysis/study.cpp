@@ -319,16 +319,21 @@ Sidecars readSidecars(std::span<const TrialTable> tables) {
     return sidecars;
 }
 
-// The first field in which two normalised designs differ, with both values; "" for one design. The
-// description is words.
+// What may differ between sessions of one study: words, and which of its conditions a session ran,
+// as one that runs a condition again does.
+bool isFree(const std::string& field) {
+    return field == "description" || field == "only_conditions";
+}
+
+// The first field in which two normalised designs differ, with both values; "" for one design.
 std::string designDifference(const nlohmann::json& one, const nlohmann::json& other) {
     for (const auto& [field, value] : one.items()) {
-        if (field == "description") continue;
+        if (isFree(field)) continue;
         const std::string there = other.contains(field) ? other.at(field).dump() : "nothing";
         if (there != value.dump()) return field + " " + value.dump() + ", but %s has " + there;
     }
     for (const auto& [field, value] : other.items()) {
-        if (field != "description" && !one.contains(field)) {
+        if (!isFree(field) && !one.contains(field)) {
             return field + " nothing, but %s has " + value.dump();
         }
     }

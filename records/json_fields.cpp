@@ -192,4 +192,14 @@ void JsonFields::noOtherFields() const {
                 joined(std::vector<std::string_view>(asked_->begin(), asked_->end())));
 }
 
+void requireNoNull(const json& value, const std::string& file, const std::string& path) {
+    if (value.is_null()) failAt(file, path, value, "must have a value, or be left out");
+    if (!value.is_structured()) return;
+    std::size_t i = 0;
+    for (const auto& [key, item] : value.items()) {
+        const std::string place = path.empty() ? key : path + "." + key;
+        requireNoNull(item, file, value.is_array() ? element(path, i++) : place);
+    }
+}
+
 }  // namespace records

@@ -94,4 +94,9 @@ class JsonFields {
     std::shared_ptr<std::set<std::string>> asked_;
 };
 
+/// For files in which a field that is not given is left out. Throws where a value is null, at any
+/// depth: "d.json: field quest.beta: null: must have a value, or be left out".
+void requireNoNull(const nlohmann::json& json, const std::string& file,
+                   const std::string& path = "");
+
 }  // namespace records

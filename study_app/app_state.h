@@ -10,6 +10,7 @@
 
 #include "study_app/design_file.h"
 #include "study_app/instructions.h"
+#include "study_app/reruns.h"
 #include "study_app/screen_flow.h"
 #include "study_app/session_flags.h"
 #include "study_app/session_runner.h"
@@ -24,10 +25,12 @@ struct SetupState {
     // What follows from the form, found again whenever the form changes:
     std::optional<SetupForm> lookedUp;
     ExistingSession existing;
+    std::size_t rowsFound = 0;     ///< the most that `existing` had since the session was chosen
     std::optional<Design> design;  ///< that the session would have
     std::vector<std::string> summary;
     std::vector<std::string> participants;
-    std::string problem;  ///< why a session cannot start
+    std::string problem;   ///< why a session cannot start
+    std::string tooSmall;  ///< why its stimuli do not fit into the window, as it is now
     /// What participants.tsv says of this participant and was put into the form, like the form's.
     std::string filledAge, filledGender, filledExpertise;
 };
@@ -47,6 +50,13 @@ struct CalibrationState {
     std::string problem;   ///< why it could not be stored
 };
 
+/// Of the session that ended and its reruns.
+struct Results {
+    std::vector<RunResult> conditions;
+    CatchResult attention;
+    std::string problem = {};  ///< why they cannot be shown
+};
+
 struct AppState {
     Flow flow;
     SetupState setup;
@@ -57,9 +67,9 @@ struct AppState {
     bool messageIsTrouble = false;
     double restOver = 0;  ///< when the break may end
     bool practiceOver = false, practiceStuck = false;
-    bool resultsShown = false;              ///< on the last screen
-    std::vector<std::size_t> rerunChoices;  ///< conditions that the end offers to run again
-    std::optional<std::size_t> rerun;
+    bool resultsShown = false;  ///< on the last screen
+    Results results;            ///< there
+    std::string rerun;          ///< the condition that is to be run again
 
     /// Stimuli are on, not the words between practice and trials.
     bool answering() const { return showsStimuli(flow.screen) && !practiceOver && !practiceStuck; }

@@ -28,6 +28,17 @@ constexpr int kMostTrials = 100000;
 // A quarter of all codes: at more, most of the noise is cut off at black and white.
 constexpr double kMostNoiseLevels = 64;
 
+// Log10 units. A prior narrower than a step of the radii on a display learns nothing from answers;
+// one wider than a hundredfold to either side knows nothing of displays.
+constexpr records::NumberRule kPriorSd = records::between(0.02, 2);
+// Candidates must lie closer than the posterior is wide after 80 trials, .04.
+constexpr records::NumberRule kGrain = records::between(0.001, 0.04);
+constexpr records::NumberRule kRange{.low = 0, .high = 20, .lowIncluded = false};
+// From a curve that rises over all radii of a display to a jump. Published ones: 2 to 5.
+constexpr records::NumberRule kBeta = records::between(0.5, 20);
+// Of who answers half of the trials blindly nothing can be learned.
+constexpr records::NumberRule kLapse = records::between(0, 0.5);
+
 std::string problem(const std::string& field, const std::string& value, const std::string& rule) {
     return field + ": " + value + ": " + rule;
 }
@@ -72,6 +83,7 @@ std::string noConditions(const std::string& field, const List& list) {
 }
 
 double conditionCount(const Design& d) {
+    if (!d.onlyConditions.empty()) return static_cast<double>(d.onlyConditions.size());
     if (d.frames) return static_cast<double>(frameConditions(d).size());
     return static_cast<double>(d.artifactPx.size() * d.patterns.size() * d.litLevels.size() *
                                d.kernels.size() * d.noiseLevels.size());
@@ -263,13 +275,12 @@ std::string checkGuess(const Design& d) {
 
 std::string checkCurve(const Design& d) {
     const quest::QuestParameters& q = d.staircase;
-    constexpr records::NumberRule lapse{.low = 0, .high = 1, .highIncluded = false};
+    constexpr records::NumberRule gamma{.low = 0, .high = 1, .highIncluded = false};
     for (const std::string& found :
-         {broken("quest.prior_sd", q.priorSd, records::kPositive),
-          broken("quest.beta", q.beta, records::kPositive),
-          broken("quest.grain", q.grain, records::kPositive),
-          q.range ? broken("quest.range", *q.range, records::kPositive) : std::string(),
-          broken("quest.delta", q.delta, lapse), broken("quest.gamma", q.gamma, lapse)}) {
+         {broken("quest.prior_sd", q.priorSd, kPriorSd), broken("quest.beta", q.beta, kBeta),
+          broken("quest.grain", q.grain, kGrain),
+          q.range ? broken("quest.range", *q.range, kRange) : std::string(),
+          broken("quest.delta", q.delta, kLapse), broken("quest.gamma", q.gamma, gamma)}) {
         if (!found.empty()) return found;
     }
     if (d.task == records::Task::twoAfc && q.gamma != 0.5) {
@@ -338,34 +349,7 @@ double trueAngleDeg(const Design& design, const Silhouette& s, int artifactPx) {
     return stimulus::trueAngleDeg(options);
 }
 
-}  // namespace
-
-std::string validate(const Design& d) {
-    if (d.name.empty() || !records::isPlainText(d.name)) {
-        return problem("name", records::quotedText(d.name),
-                       "must be a text of one line, not empty");
-    }
-    if (d.frames) {
-        return firstOf([&] { return checkWindow(d); }, [&] { return validateFrames(d); },
-                       [&] { return checkTrials(d); }, [&] { return checkCurve(d); },
-                       [&] { return checkRange(d); }, [&] { return checkPresentation(d); });
-    }
-    return firstOf([&] { return checkWindow(d); }, [&] { return checkSizes(d); },
-                   [&] { return checkPatterns(d); }, [&] { return checkLitLevels(d); },
-                   [&] { return checkKernels(d); }, [&] { return checkNoise(d); },
-                   [&] { return checkLocalise(d); }, [&] { return checkTrials(d); },
-                   [&] { return checkRadius(d); }, [&] { return checkGuess(d); },
-                   [&] { return checkCurve(d); }, [&] { return checkRange(d); },
-                   [&] { return checkPresentation(d); });
-}
-
-quest::QuestParameters staircaseParameters(const Design& design) {
-    quest::QuestParameters parameters = design.staircase;
-    parameters.priorMean = -std::log10(design.guessRatio);
-    return parameters;
-}
-
-std::vector<Condition> conditions(const Design& design) {
+std::vector<Condition> allConditions(const Design& design) {
     if (design.frames) return frameConditions(design);
     std::vector<Condition> result;
     for (const Silhouette& silhouette : design.patterns) {
@@ -390,6 +374,55 @@ std::vector<Condition> conditions(const Design& design) {
     return result;
 }
 
+std::string checkOnly(const Design& d) {
+    const std::vector<Condition> all = allConditions(d);
+    for (std::size_t i = 0; i < d.onlyConditions.size(); ++i) {
+        if (std::ranges::find(all, d.onlyConditions[i], &Condition::name) != all.end()) continue;
+        std::string names;
+        for (const Condition& c : all) names += (names.empty() ? "" : ", ") + c.name;
+        return problem(indexed("only_conditions", i), records::quotedText(d.onlyConditions[i]),
+                       "must be one of " + names);
+    }
+    return duplicate("only_conditions", d.onlyConditions);
+}
+
+}  // namespace
+
+std::string validate(const Design& d) {
+    if (d.name.empty() || !records::isPlainText(d.name)) {
+        return problem("name", records::quotedText(d.name),
+                       "must be a text of one line, not empty");
+    }
+    if (d.frames) {
+        return firstOf([&] { return checkWindow(d); }, [&] { return validateFrames(d); },
+                       [&] { return checkOnly(d); }, [&] { return checkTrials(d); },
+                       [&] { return checkCurve(d); }, [&] { return checkRange(d); },
+                       [&] { return checkPresentation(d); });
+    }
+    return firstOf([&] { return checkWindow(d); }, [&] { return checkSizes(d); },
+                   [&] { return checkPatterns(d); }, [&] { return checkLitLevels(d); },
+                   [&] { return checkKernels(d); }, [&] { return checkNoise(d); },
+                   [&] { return checkLocalise(d); }, [&] { return checkOnly(d); },
+                   [&] { return checkTrials(d); }, [&] { return checkRadius(d); },
+                   [&] { return checkGuess(d); }, [&] { return checkCurve(d); },
+                   [&] { return checkRange(d); }, [&] { return checkPresentation(d); });
+}
+
+quest::QuestParameters staircaseParameters(const Design& design) {
+    quest::QuestParameters parameters = design.staircase;
+    parameters.priorMean = -std::log10(design.guessRatio);
+    return parameters;
+}
+
+std::vector<Condition> conditions(const Design& design) {
+    std::vector<Condition> all = allConditions(design);
+    if (design.onlyConditions.empty()) return all;
+    std::erase_if(all, [&](const Condition& c) {
+        return std::ranges::find(design.onlyConditions, c.name) == design.onlyConditions.end();
+    });
+    return all;
+}
+
 StrengthRange strengthRange(const Design& design, const Condition& condition) {
     if (!condition.frames.empty()) {
         const records::FramePair &coarse = condition.frames.front(),
@@ -410,13 +443,13 @@ int totalTrials(const Design& d) {
     return static_cast<int>(conditions(d).size()) * d.trialsPerCondition + catchTrials(d);
 }
 
-double expectedMinutes(const Design& design) {
+int expectedMinutes(const Design& design) {
     const Presentation& p = design.presentation;
     const double trials = totalTrials(design);
     const double breaks =
         p.breakEveryTrials > 0 ? std::floor((trials - 1) / p.breakEveryTrials) : 0;
     const double trialS = p.blankS + p.fixationS + kTypicalAnswerS + (p.feedback ? p.feedbackS : 0);
-    return (trials * trialS + breaks * p.breakMinimumS) / 60;
+    return static_cast<int>(std::ceil((trials * trialS + breaks * p.breakMinimumS) / 60));
 }
 
 }  // namespace study_app

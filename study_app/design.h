@@ -13,10 +13,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "quest/observer_screening.h"
 #include "quest/quest.h"
 #include "records/frame_manifest.h"
 #include "records/trial_table.h"
@@ -56,13 +58,6 @@ struct Roving {
     bool operator==(const Roving&) const = default;
 };
 
-/// Who is left out of the fit, fixed before anybody has answered (METHODS section 5).
-struct ScreeningLimits {
-    double falseAlarmRate = 0.10;     ///< yes/no: that the lower 95 % bound may reach, [0, 1]
-    double catchFailureShare = 0.20;  ///< 2AFC: of the catch trials, [0, 1]
-    bool operator==(const ScreeningLimits&) const = default;
-};
-
 /// The false-alarm rate that staircases assume in yes/no where a design gives none: careful
 /// observers have 1 to 6 %. Presets keep their criterion there.
 inline constexpr double kYesNoGamma = 0.05;
@@ -71,6 +66,9 @@ inline constexpr double kYesNoGamma = 0.05;
 struct FrameSet {
     std::filesystem::path folder;           ///< in which the pictures lie
     std::vector<records::FramePair> pairs;  ///< of its manifest
+    /// SHA-256 by the pictures' names, so that a session goes on with the pictures that it began
+    /// with; empty: not known.
+    std::map<std::string, std::string> sha256 = {};
     bool operator==(const FrameSet&) const = default;
 };
 
@@ -95,10 +93,13 @@ struct Design {
     RadiusLimits radius;
     Roving roving;
     Presentation presentation;
-    ScreeningLimits screening;
+    quest::ScreeningLimits screening;  ///< who is left out of the fit
     /// Then the rest that describes an edge is empty or at its default, and windowPx is the edge of
     /// the frames.
     std::optional<FrameSet> frames = {};
+    /// Names of conditions that are shown alone, as where a session runs flagged ones again; empty:
+    /// all of them. Whatever else is the same measures the same, so a fit takes both together.
+    std::vector<std::string> onlyConditions = {};
 
     bool operator==(const Design&) const = default;
 };
@@ -122,7 +123,7 @@ struct Condition {
 };
 
 /// Patterns outermost, then sizes, lit levels, kernels, noise. Kernel and noise are part of the
-/// name where the design has several.
+/// name where the design has several. Of these the ones in onlyConditions.
 std::vector<Condition> conditions(const Design& design);
 
 /// The strongest and the weakest x = log10(a / r) that the display, or the list of frames, can show
@@ -136,7 +137,8 @@ int catchTrials(
     const Design& design);  ///< so that their share of all trials is catchShare, rounded
 int totalTrials(const Design& design);  ///< with catch trials
 
-/// Minutes that a session takes: trials with an answer after kTypicalAnswerS, and the least breaks.
-double expectedMinutes(const Design& design);
+/// Minutes that a session takes, rounded up: trials with an answer after kTypicalAnswerS, and the
+/// least breaks.
+int expectedMinutes(const Design& design);
 
 }  // namespace study_app

@@ -140,11 +140,10 @@ DesignCheck checkDesign(const Design& design, const SimulatedPopulation& populat
 std::string checkText(const DesignCheck& check, const Design& design, int observers) {
     const quest::QuestParameters q = staircaseParameters(design);
     std::string text =
-        design.name + formatted(": %zu %s, %d trials (%d of them catch trials), about %.0f min\n",
+        design.name + formatted(": %zu %s, %d trials (%d of them catch trials), about %d min\n",
                                 check.conditions.size(),
                                 check.conditions.size() == 1 ? "condition" : "conditions",
-                                totalTrials(design), catchTrials(design),
-                                std::ceil(expectedMinutes(design)));
+                                totalTrials(design), catchTrials(design), expectedMinutes(design));
     text += formatted("%d sessions simulated; c = r / a at criterion F* = %.4g\n\n", kCheckSessions,
                       quest::criterion(q));
     std::vector<std::vector<std::string>> rows{

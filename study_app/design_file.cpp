@@ -131,8 +131,8 @@ RadiusLimits readRadius(const JsonFields& design, int windowPx) {
     return limits;
 }
 
-ScreeningLimits readScreening(const JsonFields& design) {
-    ScreeningLimits limits;
+quest::ScreeningLimits readScreening(const JsonFields& design) {
+    quest::ScreeningLimits limits;
     if (const auto fields = design.optionalObject("screening")) {
         limits.falseAlarmRate =
             fields->optionalNumber("false_alarm_rate").value_or(limits.falseAlarmRate);
@@ -158,6 +158,20 @@ Roving readRoving(const JsonFields& design, Roving roving) {
     return roving;
 }
 
+std::vector<std::string> readOnly(const JsonFields& design) {
+    std::vector<std::string> names = design.texts("only_conditions");
+    if (names.empty()) design.fail("only_conditions", "must name at least one condition");
+    return names;
+}
+
+std::map<std::string, std::string> readChecksums(const JsonFields& frames) {
+    if (!frames.any("sha256").is_object()) frames.fail("sha256", "must be an object");
+    const JsonFields fields = frames.object("sha256");
+    std::map<std::string, std::string> sums;
+    for (const auto& [name, sum] : frames.any("sha256").items()) sums[name] = fields.text(name);
+    return sums;
+}
+
 /// A folder, beside the design's file; in a session's sidecar the folder with its list.
 FrameSet readFrames(const JsonFields& design, const std::string& file, const fs::path& beside) {
     const json& frames = design.any("frames");
@@ -166,28 +180,14 @@ FrameSet readFrames(const JsonFields& design, const std::string& file, const fs:
         FrameSet set{.folder = fields.text("folder"),
                      .pairs = records::framePairsFromJson(frames, file, "frames", "pairs")};
         fields.any("pairs");
+        if (fields.has("sha256")) set.sha256 = readChecksums(fields);
         fields.noOtherFields();
         return set;
     }
     const fs::path folder = fs::absolute(beside / design.text("frames")).lexically_normal();
-    return {.folder = folder, .pairs = records::readFrameManifest(folder).pairs};
-}
-
-/// Every picture is looked at, so that no session stops in its middle.
-int edgeOf(const FrameSet& frames) {
-    const fs::path first = frames.folder / frames.pairs.front().artifact;
-    const int edge = frameEdgePx(first);
-    for (const records::FramePair& pair : frames.pairs) {
-        for (const std::string& name : {pair.artifact, pair.converged}) {
-            const fs::path file = frames.folder / name;
-            if (const int other = frameEdgePx(file); other != edge) {
-                throw std::runtime_error(file.string() + ": " + std::to_string(other) +
-                                         " px: must be as wide as " + first.string() + ", " +
-                                         std::to_string(edge) + " px");
-            }
-        }
-    }
-    return edge;
+    const std::vector<records::FramePair> pairs = records::readFrameManifest(folder).pairs;
+    frameEdgePx(folder, pairs);  // every picture is looked at: no session stops in its middle
+    return {.folder = folder, .pairs = pairs, .sha256 = frameChecksums(folder, pairs)};
 }
 
 void readFrameDesign(const JsonFields& fields, const std::string& where, const fs::path& beside,
@@ -198,7 +198,9 @@ void readFrameDesign(const JsonFields& fields, const std::string& where, const f
     }
     d.frames = readFrames(fields, where, beside);
     const auto window = fields.optionalInteger("window_px");
-    d.windowPx = fields.any("frames").is_object() && window ? *window : edgeOf(*d.frames);
+    d.windowPx = fields.any("frames").is_object() && window
+                     ? *window
+                     : frameEdgePx(d.frames->folder, d.frames->pairs);
     if (window && *window != d.windowPx) {
         fields.fail("window_px", "must be the edge of the frames, " + std::to_string(d.windowPx));
     }
@@ -264,6 +266,7 @@ fs::path executableFolder() {
 Design designFromJson(const json& value, const std::string& where, const fs::path& beside) {
     const JsonFields fields(value, where);
     records::checkSchema(fields, kSchemaName, kDesignMajor);
+    records::requireNoNull(value, where);
     Design d;
     d.name = fields.text("name");
     d.description = fields.optionalText("description").value_or("");
@@ -281,6 +284,7 @@ Design designFromJson(const json& value, const std::string& where, const fs::pat
         d.presentation = presentationFromJson(fields.any("presentation"), where, "presentation");
     }
     d.screening = readScreening(fields);
+    if (fields.has("only_conditions")) d.onlyConditions = readOnly(fields);
     fields.noOtherFields();
     if (const std::string found = validate(d); !found.empty()) {
         throw std::runtime_error(where + ": field " + found);
@@ -302,6 +306,7 @@ ordered_json normalisedJson(const Design& d) {
     if (d.frames) {
         text["frames"] = {{"folder", d.frames->folder.string()},
                           {"pairs", records::toJson(d.frames->pairs)}};
+        if (!d.frames->sha256.empty()) text["frames"]["sha256"] = d.frames->sha256;
     } else {
         text.update(edgeJson(d));
     }
@@ -317,6 +322,7 @@ ordered_json normalisedJson(const Design& d) {
                              {"screening",
                               {{"false_alarm_rate", d.screening.falseAlarmRate},
                                {"catch_failure_share", d.screening.catchFailureShare}}}});
+    if (!d.onlyConditions.empty()) text["only_conditions"] = d.onlyConditions;
     return text;
 }
 

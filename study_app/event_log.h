@@ -6,6 +6,7 @@
 //   stimulus 12 left       // or "practice ...": the trial's number and the right answer
 //   place 12               // "seen" waits for a click on the artifact
 //   row 12 ok              // on disk
+//   undo 12                // the row is marked, as are those after it
 //   problem study: ...     // what the screen says went wrong
 #pragma once
 
@@ -28,6 +29,8 @@ class EventLog {
     void screen(const std::string& name) { line("screen " + name); }
     void problem(const std::string& sentence) { line("problem " + sentence); }
     void stimulus(const records::Trial& trial, bool practice);
+    /// The answer of this row is taken back.
+    void undo(int row) { line("undo " + std::to_string(row)); }
     void place(const records::Trial& trial) { line("place " + std::to_string(trial.number)); }
     /// The rows that are new since the last call; fewer than then: another session has begun.
     void rows(const std::vector<records::Trial>& rows);

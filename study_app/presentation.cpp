@@ -72,6 +72,7 @@ std::string validate(const Presentation& p) {
 Presentation presentationFromJson(const nlohmann::json& json, const std::string& file,
                                   const std::string& path) {
     const JsonFields fields(json, file, path);
+    records::requireNoNull(json, file, path);
     Presentation p;
     set(p.blankS, fields.optionalNumber("blank_s", kSeconds));
     set(p.fixationS, fields.optionalNumber("fixation_s", kSeconds));

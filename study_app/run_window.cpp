@@ -15,6 +15,7 @@
 #include "study_app/app_state.h"
 #include "study_app/display_file.h"
 #include "study_app/event_log.h"
+#include "study_app/frame_images.h"
 #include "study_app/page_parts.h"
 #include "study_app/panel_window.h"
 #include "study_app/robot_observer.h"
@@ -30,6 +31,13 @@ constexpr double kCursorBlinkS = 0.4, kCountdownS = 0.25;
 /// What drawing the panel may take on a slow machine: with less time than this before the next
 /// change on the observer's screen it waits.
 constexpr double kPanelS = 0.1;
+
+/// Number of the last row that counts; there is one.
+int lastAnswer(const std::vector<records::Trial>& rows) {
+    return std::ranges::find(rows.rbegin(), rows.rend(), records::TrialStatus::ok,
+                             &records::Trial::status)
+        ->number;
+}
 
 class StudyWindow {
   public:
@@ -67,9 +75,11 @@ class StudyWindow {
     void interrupt(const std::string& why);
     void pause(const std::string& why, bool trouble);
     void undo(double now);
+    void holdAgainstWindow();
     void leaveSetup(double now);
     void beginSession(double now);
     void rerun(double now);
+    void lookUpResults();
     FlowNeeds needs() const;
 
     WindowRun run_;
@@ -288,6 +298,7 @@ void StudyWindow::draw() {
 std::optional<Request> StudyWindow::drawScreen(const Page& page) {
     switch (state_.flow.screen) {
         case Screen::setup: {
+            holdAgainstWindow();
             const auto request = drawSetup(state_, page);
             if (state_.setup.lookedUp != state_.setup.form) {
                 lookUp(state_.setup);
@@ -425,16 +436,10 @@ void StudyWindow::enter(Screen screen, double now) {
     panel_.noteChange();
     log_.screen(toText(screen));
     if (screen != Screen::practice) state_.practiceOver = state_.practiceStuck = false;
+    if (screen == Screen::end) lookUpResults();
     if (!showsStimuli(screen)) return;
-    const Design& design = state_.runner->session().design();
-    const cv::Size needed = stimulusArea(design.task, design.windowPx);
-    if (needed.width > window_.widthPx() || needed.height > window_.heightPx()) {
-        return pause("The stimuli need " + std::to_string(needed.width) + " x " +
-                         std::to_string(needed.height) + " pixels, the window has " +
-                         std::to_string(window_.widthPx()) + " x " +
-                         std::to_string(window_.heightPx()) + ". Enlarge it, then go on.",
-                     true);
-    }
+    const std::string small = tooSmall(window_, state_.runner->session().design());
+    if (!small.empty()) return pause(small + " Enlarge it, then go on.", true);
     state_.message.clear();
     begin(
         screen == Screen::practice ? SessionRunner::Stage::practice : SessionRunner::Stage::session,
@@ -473,9 +478,12 @@ void StudyWindow::pause(const std::string& why, bool trouble) {
 void StudyWindow::undo(double now) {
     settle();
     panel_.noteChange();
+    const int row = lastAnswer(state_.runner->rows());
     if (!state_.runner->undo()) {
         return pause("The answer could not be taken back. " + state_.runner->problem(), true);
     }
+    log_.rows(state_.runner->rows());
+    log_.undo(row);
     if (state_.flow.screen == Screen::trials) {
         if (!begin(SessionRunner::Stage::session, now)) return;
     } else {
@@ -485,20 +493,34 @@ void StudyWindow::undo(double now) {
     state_.messageIsTrouble = false;
 }
 
+/// Results need no stimulus.
+void StudyWindow::holdAgainstWindow() {
+    SetupState& setup = state_.setup;
+    const bool shows = setup.design && setup.existing.state != ExistingSession::State::finished;
+    setup.tooSmall = shows ? tooSmall(window_, *setup.design) : "";
+    if (!setup.tooSmall.empty()) {
+        setup.tooSmall += " Enlarge it or start with --fullscreen, or choose another design.";
+    }
+}
+
 void StudyWindow::leaveSetup(double now) {
     SetupState& setup = state_.setup;
     lookUp(setup);
-    if (!setup.problem.empty()) return;
+    holdAgainstWindow();
+    if (setup.problem.empty()) setup.problem = setup.tooSmall;
+    if (!setup.problem.empty()) return log_.problem(setup.problem);
     try {
         state_.instructions = readInstructions(
             run_.instructions.empty() ? shippedInstructions(*setup.design) : run_.instructions);
         if (setup.existing.state == ExistingSession::State::finished) {
             state_.runner = startSession(state_, run_.context);
             state_.resultsShown = true;
+        } else if (setup.design->frames) {
+            requireFrames(*setup.design->frames);
         }
     } catch (const std::runtime_error& error) {
         setup.problem = error.what();
-        return;
+        return log_.problem(setup.problem);
     }
     go(FlowEvent::next, now);
 }
@@ -521,16 +543,26 @@ void StudyWindow::beginSession(double now) {
 void StudyWindow::rerun(double now) {
     state_.resultsShown = false;
     try {
-        state_.runner = startRerun(*state_.runner, *state_.rerun);
+        state_.runner = startRerun(*state_.runner, state_.rerun);
     } catch (const std::runtime_error& error) {
         state_.message = error.what();
         return;
     }
     const Session& session = state_.runner->session();
     go(FlowEvent::rerun, now);
-    state_.message = "One condition comes once more, " + session.design().name + ": " +
-                     std::to_string(session.total()) + " trials. Go on when the observer is ready.";
+    state_.message = "One condition comes once more, " + state_.rerun + ": " +
+                     std::to_string(session.total() - session.answered()) +
+                     " trials. Go on when the observer is ready.";
     state_.messageIsTrouble = false;
+}
+
+void StudyWindow::lookUpResults() {
+    try {
+        state_.results = resultsOf(*state_.runner);
+    } catch (const std::runtime_error& error) {
+        state_.results = {};
+        state_.results.problem = error.what();
+    }
 }
 
 }  // namespace

@@ -22,26 +22,29 @@ void cell(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
-void drawResult(AppState& state, const Page& page, const ConditionResult& r, std::size_t condition,
+void drawResult(AppState& state, const Page& page, const RunResult& run, int row,
                 std::optional<Request>& request) {
+    const ConditionResult& r = run.result;
     ImGui::TableNextRow();
-    cell(r.threshold.condition);
+    cell(run.rerun.empty() ? r.threshold.condition : "   again (" + run.rerun + ")");
     cell(std::to_string(r.threshold.trials));
     cell(formatted("%.2f", r.threshold.c));
     cell(formatted("%.2f – %.2f", r.cLow, r.cHigh));
     cell(formatted("%.1f px", r.threshold.radiusPx));
     ImGui::TableNextColumn();
     if (!r.flagged()) return;
-    ImGui::PushID(static_cast<int>(condition));
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {page.px(8), page.px(1)});
-    const bool pressed = ImGui::Button("Run again");
-    ImGui::PopStyleVar();
-    if (pressed) {
-        state.rerun = condition;
-        request = Request::rerun;
+    if (run.offered) {
+        ImGui::PushID(row);
+        ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {page.px(8), page.px(1)});
+        const bool pressed = ImGui::Button("Run again");
+        ImGui::PopStyleVar();
+        if (pressed) {
+            state.rerun = r.threshold.condition;
+            request = Request::rerun;
+        }
+        ImGui::PopID();
+        ImGui::SameLine();
     }
-    ImGui::PopID();
-    ImGui::SameLine();
     warning(flagText(r));
 }
 
@@ -54,12 +57,12 @@ std::string catchText(const CatchResult& r, records::Task task) {
 
 void drawResults(AppState& state, const Page& page, std::optional<Request>& request) {
     const Session& session = state.runner->session();
-    const CatchResult caught = catchResult(session);
+    const CatchResult& caught = state.results.attention;
+    if (!state.results.problem.empty()) return warning(state.results.problem);
     paragraph(catchText(caught, session.design().task));
-    if (caught.flagged) {
-        warning(
-            "By the screening rule this observer is to be left out: the answers to the trials "
-            "that check attention were wrong too often.");
+    if (!caught.problem.empty()) {
+        warning("By the screening rule the fit will leave this observer out: " + caught.problem +
+                ".");
     }
     ImGui::PushFont(page.window.fonts().small);
     const ImGuiTableFlags flags =
@@ -71,9 +74,9 @@ void drawResults(AppState& state, const Page& page, std::optional<Request>& requ
         ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupScrollFreeze(0, 1);
         ImGui::TableHeadersRow();
-        const std::vector<ConditionResult> results = conditionResults(session);
-        for (std::size_t k = 0; k < results.size(); ++k) {
-            drawResult(state, page, results[k], k, request);
+        int row = 0;
+        for (const RunResult& run : state.results.conditions) {
+            drawResult(state, page, run, row++, request);
         }
         ImGui::EndTable();
     }

@@ -35,8 +35,8 @@ Examples edgeExamples(const Design& design, int edgePx) {
 Examples frameExamples(const Design& design, int edgePx) {
     const Condition condition = conditions(design).front();
     const records::FramePair& plainest = condition.frames.front();
-    const cv::Mat steps = readFrame(design.frames->folder / plainest.artifact, design.windowPx);
-    const cv::Mat straight = readFrame(design.frames->folder / plainest.converged, design.windowPx);
+    const cv::Mat steps = readFrame(*design.frames, plainest.artifact, design.windowPx);
+    const cv::Mat straight = readFrame(*design.frames, plainest.converged, design.windowPx);
     cv::Mat difference;
     cv::absdiff(steps, straight, difference);
     cv::Point middle;

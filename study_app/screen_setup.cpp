@@ -117,6 +117,7 @@ std::optional<Request> drawSetup(AppState& state, const Page& page) {
     drawForm(page, setup);
     ImGui::Dummy({0, page.px(6)});
     if (!setup.problem.empty()) warning(setup.problem);
+    if (!setup.tooSmall.empty() && setup.problem != setup.tooSmall) warning(setup.tooSmall);
     for (const std::string& notice : page.window.notices()) faint(page, notice);
     ImGui::EndChild();
     ImGui::SameLine(0, page.px(40));

@@ -86,6 +86,14 @@ cv::Size stimulusArea(records::Task task, int windowPx) {
     return {task == records::Task::twoAfc ? 2 * windowPx + kGapPx : windowPx, windowPx};
 }
 
+std::string tooSmall(const Window& window, const Design& design) {
+    const cv::Size needed = stimulusArea(design.task, design.windowPx);
+    if (needed.width <= window.widthPx() && needed.height <= window.heightPx()) return {};
+    return "The stimuli need " + std::to_string(needed.width) + " x " +
+           std::to_string(needed.height) + " pixels, the window has " +
+           std::to_string(window.widthPx()) + " x " + std::to_string(window.heightPx()) + ".";
+}
+
 cv::Point stimulusOrigin(const Window& window, cv::Size area) {
     return {(window.widthPx() - area.width) / 2, (window.heightPx() - area.height) / 2};
 }

@@ -56,6 +56,8 @@ void drawPanel(const AppState& state, const Page& page);
 
 /// The part of the window that a stimulus of this task needs, px.
 cv::Size stimulusArea(records::Task task, int windowPx);
+/// Why the design's stimuli do not fit into the window; empty where they do.
+std::string tooSmall(const Window& window, const Design& design);
 /// Where it begins, in framebuffer pixels from the top left: in the middle.
 cv::Point stimulusOrigin(const Window& window, cv::Size area);
 

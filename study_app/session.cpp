@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "quest/random.h"
 #include "records/number_rule.h"
@@ -90,6 +91,12 @@ std::optional<Difference> firstDifference(const Trial& recorded, const Trial& de
                           std::string(shouldBe[i])};
     }
     return {};
+}
+
+std::size_t columnOf(const Difference& difference) {
+    const std::string header = records::trialTableHeader();
+    const auto names = cells(header);
+    return static_cast<std::size_t>(std::ranges::find(names, difference.column) - names.begin());
 }
 
 }  // namespace
@@ -207,6 +214,7 @@ Trial Session::answer(const Answer& answer) {
     if (row.status == TrialStatus::ok) take(row);
     ++rows_;
     prepareNext();
+    beforeUndo_.clear();
     return row;
 }
 
@@ -225,11 +233,10 @@ void Session::take(Trial& row) {
 }
 
 std::optional<Difference> Session::replay(const Trial& row) {
-    if (row.status == TrialStatus::undone) {
-        ++rows_;
-        prepareNext();
-        return {};
-    }
+    return row.status == TrialStatus::undone ? replayUndone(row) : replayOne(row);
+}
+
+std::optional<Difference> Session::replayOne(const Trial& row) {
     if (finished()) {
         return Difference{row.number, "trial", std::to_string(row.number),
                           "no such row, the session ends before it"};
@@ -251,6 +258,37 @@ std::optional<Difference> Session::replay(const Trial& row) {
     Trial derived = answer(recorded);
     derived.extra = row.extra;
     return firstDifference(row, derived);
+}
+
+/// Undoing marks the last answer that counted, and what came after it. So an undone row is such an
+/// answer to what is next here, or a row without an answer that counts in the session after it.
+std::optional<Difference> Session::replayUndone(const Trial& row) {
+    std::vector<Session> left;
+    std::optional<Difference> difference;
+    const auto attempt = [&](Session session, TrialStatus status) {
+        Trial asRecorded = row;
+        asRecorded.status = status;
+        const auto found = session.replayOne(asRecorded);
+        if (!found) {
+            left.push_back(std::move(session));
+        } else if (!difference || columnOf(*difference) < columnOf(*found)) {
+            difference = found;  // of the session that the row fits better
+        }
+    };
+    std::vector<Session> before = std::exchange(beforeUndo_, {});
+    if (row.response) attempt(*this, TrialStatus::ok);
+    for (Session& session : before) {
+        attempt(std::move(session), row.response ? TrialStatus::tooFast : TrialStatus::repeated);
+    }
+    if (left.empty()) {
+        return difference ? difference
+                          : Difference{row.number, "response", "n/a",
+                                       "an answer, the one that was taken back"};
+    }
+    beforeUndo_ = std::move(left);
+    ++rows_;
+    prepareNext();
+    return {};
 }
 
 std::vector<Threshold> thresholds(const Session& session) {

@@ -80,8 +80,9 @@ class Session {
     records::Trial answer(const Answer& answer);
 
     /// Takes a recorded row, holding it against what the session would have shown and derived.
-    /// After a difference the session is of no further use. A row with status `undone` is counted
-    /// without that check: it was derived from answers that may be undone as well.
+    /// After a difference the session is of no further use. A row with status `undone` must be what
+    /// the session would have recorded for an answer here, or, after such an answer was taken back,
+    /// in the session that it had led to; it is then counted and changes nothing.
     std::optional<Difference> replay(const records::Trial& row);
 
     const Design& design() const { return design_; }
@@ -99,6 +100,8 @@ class Session {
     void place(records::Trial& trial, std::size_t condition, bool isCatch) const;
     void rove(records::Trial& trial, const Condition& condition) const;
     void take(records::Trial& row);
+    std::optional<Difference> replayOne(const records::Trial& row);
+    std::optional<Difference> replayUndone(const records::Trial& row);
 
     Design design_;
     std::uint64_t seed_;
@@ -108,6 +111,9 @@ class Session {
     std::size_t rows_ = 0, answered_ = 0;
     int catchAnswered_ = 0, catchFailed_ = 0;
     records::Trial next_;
+    /// After rows that are undone: the sessions that the last of them may have left, while its
+    /// answer still counted. More than one where rows do not tell.
+    std::vector<Session> beforeUndo_;
 };
 
 /// What the display shows for a proposed radius: the nearest multiple of the step within the

@@ -5,18 +5,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "quest/observer_screening.h"
 #include "quest/quest.h"
 
 namespace study_app {
 namespace {
-
-/// E. B. Wilson, "Probable inference, the law of succession, and statistical inference" (1927).
-double wilsonLowerBound(int successes, int n) {
-    if (n == 0) return 0;
-    constexpr double z = 1.96;
-    const double p = static_cast<double>(successes) / n, zz = z * z / n;
-    return (p + zz / 2 - z * std::sqrt(p * (1 - p) / n + zz / (4 * n))) / (1 + zz);
-}
 
 double shareAtLimit(const quest::Quest& staircase, const StrengthRange& shown) {
     const auto history = staircase.history();
@@ -46,14 +39,12 @@ std::vector<ConditionResult> conditionResults(const Session& session) {
     return results;
 }
 
-CatchResult catchResult(const Session& session) {
-    CatchResult r{.answered = session.catchAnswered(), .failed = session.catchFailed()};
-    const ScreeningLimits& limits = session.design().screening;
-    r.lowerBound = wilsonLowerBound(r.failed, r.answered);
-    r.flagged = session.design().task == records::Task::twoAfc
-                    ? r.failed > limits.catchFailureShare * r.answered
-                    : r.lowerBound > limits.falseAlarmRate;
-    return r;
+CatchResult catchResult(const Design& design, int answered, int failed) {
+    return {.answered = answered,
+            .failed = failed,
+            .problem = design.task == records::Task::twoAfc
+                           ? quest::catchProblem(failed, answered, design.screening)
+                           : quest::falseAlarmProblem(failed, answered, design.screening)};
 }
 
 std::string flagText(const ConditionResult& r) {
@@ -70,22 +61,6 @@ std::string flagText(const ConditionResult& r) {
         flags += text;
     }
     return flags;
-}
-
-Design rerunDesign(const Design& design, std::size_t condition) {
-    const Condition c = conditions(design).at(condition);
-    Design rerun = design;
-    rerun.name = design.name + "-rerun";
-    if (design.frames) {
-        rerun.frames->pairs = c.frames;
-        return rerun;
-    }
-    rerun.artifactPx = {c.artifactPx};
-    rerun.patterns = {c.silhouette};
-    rerun.litLevels = {c.litLevel};
-    rerun.kernels = {c.kernel};
-    rerun.noiseLevels = {c.noiseLevels};
-    return rerun;
 }
 
 }  // namespace study_app

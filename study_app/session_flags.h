@@ -27,17 +27,14 @@ struct ConditionResult {
 
 struct CatchResult {
     int answered = 0, failed = 0;
-    double lowerBound = 0;  ///< of the failure rate, one-sided 97.5 % (Wilson 1927)
-    bool flagged = false;
+    std::string problem;  ///< why the fit will leave this observer out; empty where it will not
 };
 
 std::vector<ConditionResult> conditionResults(const Session& session);
-CatchResult catchResult(const Session& session);
+/// Of a session of this design, or of several.
+CatchResult catchResult(const Design& design, int answered, int failed);
 
 /// "stuck at a display limit (12 of 15 trials)", "not converged (sd .14)"; empty without a flag.
 std::string flagText(const ConditionResult& result);
-
-/// The design with this condition alone, for a rerun as a session of its own.
-Design rerunDesign(const Design& design, std::size_t condition);
 
 }  // namespace study_app

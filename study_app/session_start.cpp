@@ -11,6 +11,7 @@
 #include "records/participants_table.h"
 #include "records/quoted_text.h"
 #include "study_app/display_file.h"
+#include "study_app/frame_images.h"
 
 namespace study_app {
 namespace {
@@ -46,6 +47,14 @@ std::array<Detail, 3> detailsOf(SetupState& setup) {
                    known.age ? records::exactText(*known.age) : std::string()},
             Detail{"gender", form.gender, setup.filledGender, known.gender},
             Detail{"expertise", form.expertise, setup.filledExpertise, known.expertise}};
+}
+
+/// A session that was found before is not begun anew because its files went away meanwhile.
+std::string lostRows(const SetupState& setup, const ExistingSession& now) {
+    if (now.state == ExistingSession::State::unusable || now.rows >= setup.rowsFound) return {};
+    return tableOf(setup.form).string() + ": holds " + std::to_string(now.rows) +
+           " rows: must hold the " + std::to_string(setup.rowsFound) +
+           " that were there before: put them back, then try again";
 }
 
 /// What the table says of somebody who was here before; what was typed stays.
@@ -95,7 +104,9 @@ void lookUp(SetupState& setup) {
     setup.design.reset();
     setup.summary.clear();
     setup.existing = findExisting(setup.form);
-    setup.problem = setup.existing.problem;
+    if (newPerson || setup.lookedUp->session != setup.form.session) setup.rowsFound = 0;
+    setup.problem = setup.existing.problem + lostRows(setup, setup.existing);
+    setup.rowsFound = std::max(setup.rowsFound, setup.existing.rows);
     try {
         if (newFolder) setup.participants = describeParticipants(setup.form.dataFolder);
         setup.design = setup.existing.design ? *setup.existing.design : designOf(setup.form);
@@ -151,25 +162,27 @@ bool storeCalibration(CalibrationState& c, const std::filesystem::path& displays
 std::unique_ptr<SessionRunner> startSession(const AppState& state,
                                             const records::RunContext& context) {
     const SetupForm& form = state.setup.form;
+    const ExistingSession existing = findExisting(form);
+    if (const std::string lost = lostRows(state.setup, existing); !lost.empty()) {
+        throw std::runtime_error(lost);
+    }
     const SessionRequest request =
-        requestFrom(form, findExisting(form), state.calibration.profile, freshSeed(), context);
+        requestFrom(form, existing, state.calibration.profile, freshSeed(), context);
+    const bool over = existing.state == ExistingSession::State::finished;
+    if (request.design.frames && !over) requireFrames(*request.design.frames);
     auto runner = std::make_unique<SessionRunner>(request);
     storeDetails(form);
     return runner;
 }
 
-std::unique_ptr<SessionRunner> startRerun(const SessionRunner& first, std::size_t condition) {
-    SessionRequest request = first.request();
-    request.design = rerunDesign(request.design, condition);
-    request.seed = freshSeed();
-    const std::string base = request.session.value_or("") + "rerun";
-    for (int i = 1;; ++i) {
-        request.session = base + std::to_string(i);
-        const auto table =
-            records::trialTablePath(request.dataFolder, request.participant, request.session);
-        if (!std::filesystem::exists(table)) break;
-    }
-    return std::make_unique<SessionRunner>(request);
+std::unique_ptr<SessionRunner> startRerun(const SessionRunner& before,
+                                          const std::string& condition) {
+    return std::make_unique<SessionRunner>(rerunRequest(before.request(), condition, freshSeed()));
+}
+
+Results resultsOf(const SessionRunner& runner) {
+    const std::vector<Run> runs = runsOf(runner.request());
+    return {.conditions = runResults(runs), .attention = catchResult(runs)};
 }
 
 }  // namespace study_app

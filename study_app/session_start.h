@@ -26,8 +26,11 @@ bool storeCalibration(CalibrationState& calibration, const std::filesystem::path
 std::unique_ptr<SessionRunner> startSession(const AppState& state,
                                             const records::RunContext& context);
 
-/// This condition alone, as a session of its own beside the first one ("...rerun1"). Throws
-/// std::runtime_error.
-std::unique_ptr<SessionRunner> startRerun(const SessionRunner& first, std::size_t condition);
+/// This condition once more (reruns.h). Throws std::runtime_error.
+std::unique_ptr<SessionRunner> startRerun(const SessionRunner& before,
+                                          const std::string& condition);
+
+/// What the last screen shows of the session and its reruns. Throws std::runtime_error.
+Results resultsOf(const SessionRunner& runner);
 
 }  // namespace study_app

@@ -29,10 +29,6 @@ std::optional<std::string> sessionOf(const SetupForm& form) {
     return form.session.empty() ? std::nullopt : std::optional(form.session);
 }
 
-fs::path tableOf(const SetupForm& form) {
-    return records::trialTablePath(form.dataFolder, form.participant, sessionOf(form));
-}
-
 bool isId(const std::string& text) {
     return std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) != 0; });
 }
@@ -123,6 +119,10 @@ void requireAsBegun(const SetupForm& form, const fs::path& table, const Session&
 
 }  // namespace
 
+fs::path tableOf(const SetupForm& form) {
+    return records::trialTablePath(form.dataFolder, form.participant, sessionOf(form));
+}
+
 ExistingSession findExisting(const SetupForm& form) {
     ExistingSession existing;
     if (form.participant.empty() || !isId(form.participant) || !isId(form.session)) return existing;
@@ -134,7 +134,12 @@ ExistingSession findExisting(const SetupForm& form) {
         requireAsBegun(form, table, replayed.session);
         existing.answered = replayed.session.answered();
         existing.total = replayed.session.total();
+        existing.rows = replayed.session.rows();
         existing.design = replayed.session.design();
+        // Frames may have been moved: where they are now, the form says.
+        if (existing.design->frames && !form.design.empty()) {
+            existing.design->frames->folder = designOf(form).frames->folder;
+        }
         existing.seed = replayed.session.seed();
         existing.state = replayed.session.finished() ? ExistingSession::State::finished
                                                      : ExistingSession::State::unfinished;
@@ -201,12 +206,10 @@ std::vector<std::string> describeDesign(const Design& d) {
                         : "One " + shown + " at a time; does it have stair-steps?");
     lines.push_back(plural(conditions(d).size(), "condition") + ": " +
                     (d.frames ? describeFrames(d) : describeEdges(d)));
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "%d trials (%d per condition, %d to check attention), about %.0f minutes",
-                  totalTrials(d), d.trialsPerCondition, catchTrials(d),
-                  std::max(1.0, expectedMinutes(d)));
-    lines.emplace_back(text);
+    lines.push_back(plural(static_cast<std::size_t>(totalTrials(d)), "trial") + " (" +
+                    std::to_string(d.trialsPerCondition) + " per condition, " +
+                    std::to_string(catchTrials(d)) + " to check attention), about " +
+                    plural(static_cast<std::size_t>(expectedMinutes(d)), "minute"));
     return lines;
 }
 

@@ -40,11 +40,15 @@ struct ExistingSession {
     enum class State { none, unfinished, finished, unusable };
     State state = State::none;
     std::size_t answered = 0, total = 0;
+    std::size_t rows = 0;          ///< of any status
     std::optional<Design> design;  ///< that it goes on with; none where it is unusable
     std::uint64_t seed = 0;
     std::string problem;  ///< unusable: why
 };
 ExistingSession findExisting(const SetupForm& form);
+
+/// Its trial table, there or not.
+std::filesystem::path tableOf(const SetupForm& form);
 
 /// The participants of the data folder: "07: finished", "08: 35 of 72 trials", sorted. At most
 /// `most` of them are looked into.

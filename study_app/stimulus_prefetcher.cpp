@@ -10,14 +10,16 @@ using records::Trial;
 std::vector<Trial> possibleNext(const Session& session) {
     std::vector<Trial> trials;
     if (session.finished()) return trials;
+    const auto after = [&](const Answer& answer) {
+        Session answered = session;
+        answered.answer(answer);
+        if (!answered.finished()) trials.push_back(answered.next());
+    };
     const bool sides = session.design().task == records::Task::twoAfc;
     using records::Response;
-    for (const Response response :
-         {sides ? Response::left : Response::seen, sides ? Response::right : Response::notSeen}) {
-        Session answered = session;
-        answered.answer({.response = response});
-        if (!answered.finished()) trials.push_back(answered.next());
-    }
+    after({.response = sides ? Response::left : Response::seen});
+    after({.response = sides ? Response::right : Response::notSeen});
+    after({.status = records::TrialStatus::repeated});  // also where it was too fast
     return trials;
 }
 

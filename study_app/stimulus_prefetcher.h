@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stimuli computed ahead while the observer still looks at the trial before: both that may come
+// Stimuli computed ahead while the observer still looks at the trial before: whichever may come
 // next.
 #pragma once
 
@@ -15,7 +15,8 @@
 
 namespace study_app {
 
-/// The trials that may follow session.next(), one for each answer. Empty before the last trial.
+/// The trials that may follow session.next(): one for each answer, and the one where it comes
+/// again. The likeliest first; before the last trial that one alone.
 std::vector<records::Trial> possibleNext(const Session& session);
 
 class StimulusPrefetcher {

@@ -19,6 +19,7 @@
 #include "study_app/design_file.h"
 #include "study_app/display_file.h"
 #include "study_app/recorded_session.h"
+#include "study_app/screens.h"
 #include "study_app/session_report.h"
 #include "study_app/simulated_population.h"
 #include "study_app/simulated_study.h"
@@ -107,10 +108,10 @@ void simulate(const Options& options, const study_app::SessionRequest& request) 
 std::string onDisplay(const study_app::DisplayProfile& display, const study_app::Design& design) {
     std::string text = "\n" + display.name + ", " + std::to_string(display.widthPx) + " x " +
                        std::to_string(display.heightPx) + " px: ";
-    const int panels = design.task == records::Task::twoAfc ? 2 : 1;
-    if (display.widthPx < panels * design.windowPx || display.heightPx < design.windowPx) {
-        text += "warning: too small for " + std::to_string(panels) + " x " +
-                std::to_string(design.windowPx) + " px. ";
+    const cv::Size needed = study_app::stimulusArea(design.task, design.windowPx);
+    if (display.widthPx < needed.width || display.heightPx < needed.height) {
+        text += "warning: too small for stimuli of " + std::to_string(needed.width) + " x " +
+                std::to_string(needed.height) + " px. ";
     }
     const std::optional<double> pxPerDeg = study_app::pxPerDeg(display);
     return text + (pxPerDeg ? study_app::visibleRangeText(design, *pxPerDeg)

@@ -98,13 +98,13 @@ TrialImages frameImages(const Trial& trial, const Design& design) {
     if (!design.frames || !trial.frame) {
         fail(trial, "pattern: frame: the design has no frames, or the row names none");
     }
-    const auto& [folder, pairs] = *design.frames;
+    const std::vector<records::FramePair>& pairs = design.frames->pairs;
     const auto pair = std::ranges::find(pairs, *trial.frame, &records::FramePair::artifact);
     if (pair == pairs.end()) {
         fail(trial, "frame: " + records::quotedText(*trial.frame) + ": is not in the design");
     }
     const auto read = [&](const std::string& name) {
-        cv::Mat codes = readFrame(folder / name, design.windowPx);
+        cv::Mat codes = readFrame(*design.frames, name, design.windowPx);
         if (trial.mirror.value_or(false)) cv::flip(codes, codes, 1);
         return codes;
     };

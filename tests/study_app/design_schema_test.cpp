@@ -8,6 +8,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -18,6 +19,7 @@
 #include "study_app/design_file.h"
 #include "tests/study_app/bad_designs.h"
 #include "tests/study_app/frame_folder.h"
+#include "tests/study_app/mutated_designs.h"
 #include "tests/study_app/test_designs.h"
 #include "tests/temporary_folder.h"
 
@@ -80,7 +82,6 @@ TEST(DesignSchema, AcceptsWhatTheReaderAcceptsAndWrites) {
 // other.
 const std::set<std::string> kAcrossFields{"CriterionAboveCurve",
                                           "CriterionBelowCurve",
-                                          "GrainTooFine",
                                           "GuessAboveMax",
                                           "GuessBelowMin",
                                           "LineFlatterThanTheStep",
@@ -90,9 +91,9 @@ const std::set<std::string> kAcrossFields{"CriterionAboveCurve",
                                           "MinAboveMax",
                                           "MinIsMax",
                                           "MinOffTheGrid",
+                                          "OnlyUnknownCondition",
                                           "PatternTwice",
                                           "PracticeCannotBeMet",
-                                          "PriorSdBelowGrain",
                                           "RangeTooNarrow",
                                           "SizeOfHalfTheWindow",
                                           "TimeLimitBelowTooFast",
@@ -107,6 +108,24 @@ TEST(DesignSchema, RefusesWhatTheReaderRefusesButRulesAcrossFields) {
         if (answers[i] == "ok") accepted.insert(tests::badDesigns()[i].claim);
     }
     EXPECT_EQ(accepted, kAcrossFields);
+}
+
+TEST(DesignSchema, AcceptsWhateverTheReaderAccepts) {
+    std::mt19937_64 random(37);
+    std::vector<json> designs;
+    while (designs.size() < 300) {
+        const json changed =
+            tests::mutated(random, random() % 2 == 0 ? tests::fullDesign() : tests::smallDesign());
+        try {
+            study_app::designFromJson(changed, "d.json");
+            designs.push_back(changed);
+        } catch (const std::runtime_error&) {
+        }
+    }
+    const std::vector<std::string> answers = bySchema("design.schema.json", designs);
+    for (std::size_t i = 0; i < designs.size(); ++i) {
+        EXPECT_EQ(answers[i], "ok") << designs[i].dump();
+    }
 }
 
 TEST(DesignSchema, RefusesBadManifests) {

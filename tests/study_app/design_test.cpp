@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -17,7 +18,10 @@
 #include "records/json_document.h"
 #include "study_app/design_file.h"
 #include "study_app/random_stream.h"
+#include "study_app/session.h"
+#include "study_app/trial_stimulus.h"
 #include "tests/study_app/bad_designs.h"
+#include "tests/study_app/mutated_designs.h"
 #include "tests/study_app/test_designs.h"
 
 namespace {
@@ -47,6 +51,30 @@ TEST(Design, RefusesContradictionsWithFieldValueAndRule) {
         EXPECT_THAT(error, HasSubstr("small.json")) << bad.claim;
         for (const std::string& part : bad.parts) EXPECT_THAT(error, HasSubstr(part)) << bad.claim;
     }
+}
+
+// Run under the sanitizers this is a small fuzzer with a fixed seed.
+TEST(Design, MutatedAtRandomGivesALocatedErrorOrASessionThatShowsImages) {
+    std::mt19937_64 random(31);
+    int accepted = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const json changed =
+            tests::mutated(random, round % 2 == 0 ? tests::fullDesign() : smallDesign());
+        Design design;
+        try {
+            design = study_app::designFromJson(changed, "small.json");
+        } catch (const std::runtime_error& error) {
+            ASSERT_THAT(error.what(), testing::StartsWith("small.json: ")) << changed.dump();
+            continue;
+        }
+        ++accepted;
+        const json normalised = study_app::normalisedJson(design);
+        ASSERT_EQ(study_app::designFromJson(normalised, "again"), design) << changed.dump();
+        if (study_app::totalTrials(design) > 500 || design.windowPx > 200) continue;
+        const study_app::Session session(design, 1);
+        ASSERT_NO_THROW(study_app::trialImages(session.next(), design)) << changed.dump();
+    }
+    EXPECT_GT(accepted, 150) << "too few to say anything about what is accepted";
 }
 
 TEST(Design, TakesTheSmallestFile) {

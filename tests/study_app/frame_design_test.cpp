@@ -115,7 +115,7 @@ TEST_F(Frames, ComeFromTheFilesCodeByCode) {
             const auto pair =
                 std::ranges::find(pairs, row.frame.value(), &records::FramePair::artifact);
             const auto codes = [&](const std::string& name) {
-                cv::Mat image = study_app::readFrame(d.frames->folder / name, d.windowPx);
+                cv::Mat image = study_app::readFrame(*d.frames, name, d.windowPx);
                 if (row.mirror.value()) cv::flip(image, image, 1);
                 return image;
             };
@@ -151,6 +151,29 @@ TEST_F(Frames, GoOnFromTheSidecarsListWhereverTheFolderIs) {
     const Design there = study_app::designFromJson(moved, "d.json", folder.path());
     EXPECT_NE(there, d);
     EXPECT_EQ(study_app::designDifference(stored, study_app::normalisedJson(there)), "");
+}
+
+TEST_F(Frames, ArePinnedByTheirChecksums) {
+    const Design d = design();
+    const std::filesystem::path file4 = d.frames->folder / "map4.png";
+    EXPECT_EQ(d.frames->sha256.size(), pairs.size() + 1);
+    EXPECT_NO_THROW(study_app::requireFrames(*d.frames));
+    tests::writePicture(file4, tests::kFrameEdgePx, tests::kFrameEdgePx, 1, 99);
+    for (const auto& use : std::vector<std::function<void()>>{
+             [&] { study_app::requireFrames(*d.frames); },
+             [&] { study_app::readFrame(*d.frames, "map4.png", d.windowPx); }}) {
+        try {
+            use();
+            ADD_FAILURE() << "another picture was taken";
+        } catch (const std::runtime_error& error) {
+            EXPECT_THAT(error.what(), AllOf(HasSubstr(file4.string() + ": is another picture"),
+                                            HasSubstr("SHA-256")));
+        }
+    }
+    EXPECT_NO_THROW(study_app::readFrame(*d.frames, "map3.png", d.windowPx));
+    EXPECT_THAT(study_app::designDifference(study_app::normalisedJson(d),
+                                            study_app::normalisedJson(design())),
+                HasSubstr("frames.sha256.map4.png"));
 }
 
 TEST_F(Frames, AreRefusedByFilePlaceValueAndRule) {

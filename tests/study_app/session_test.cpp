@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -255,6 +256,65 @@ TEST_P(BothTasks, AnUndoneRowLeavesTheStaircaseAlone) {
     EXPECT_EQ(after.next().condition, before.next().condition);
     EXPECT_EQ(after.next().proposedRadiusPx, before.next().proposedRadiusPx);
     EXPECT_EQ(after.next().number, before.next().number + 1);
+}
+
+/// A session in which answers are taken back, as undo.h marks them: at random, some after trials
+/// that were too fast or disturbed.
+std::vector<Trial> sessionWithUndoneRows(const Design& design) {
+    std::vector<Trial> rows;
+    Session session(design, kSeed);
+    std::mt19937 rng(7);
+    const bool sides = design.task == Task::twoAfc;
+    const auto answer = [&](TrialStatus status) {
+        const bool one = rng() % 2 == 0;
+        Response response = one ? Response::left : Response::right;
+        if (!sides) response = one ? Response::seen : Response::notSeen;
+        const bool none = status == TrialStatus::repeated;
+        rows.push_back(session.answer(
+            {.response = none ? std::nullopt : std::optional(response), .status = status}));
+    };
+    for (int i = 0; i < 60 && !session.finished(); ++i) {
+        if (rng() % 8 == 0) answer(TrialStatus::tooFast);
+        answer(TrialStatus::ok);
+        const std::size_t last = rows.size() - 1;
+        if (rng() % 3 != 0 || session.finished()) continue;
+        for (std::uint64_t more = rng() % 3; more > 0; --more) {
+            answer(more == 1 ? TrialStatus::repeated : TrialStatus::tooFast);
+        }
+        for (std::size_t k = last; k < rows.size(); ++k) rows[k].status = TrialStatus::undone;
+        session = replayed(design, rows, rows.size());
+    }
+    return rows;
+}
+
+TEST_P(BothTasks, EveryUndoneRowIsDerivedAgain) {
+    const std::vector<Trial> rows = sessionWithUndoneRows(design);
+    std::size_t undone = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (rows[k].status != TrialStatus::undone) continue;
+        ++undone;
+        for (const auto& [column, change] : std::vector<std::pair<std::string, void (*)(Trial&)>>{
+                 {"condition", [](Trial& t) { t.condition = "other"; }},
+                 {"filter_radius_px", [](Trial& t) { t.filterRadiusPx += 0.25; }},
+                 {"shift_px", [](Trial& t) { t.shiftPx = 99; }},
+                 {"image_seed", [](Trial& t) { t.imageSeed = 1; }}}) {
+            Session session = replayed(design, rows, k);
+            Trial row = rows[k];
+            change(row);
+            const auto difference = session.replay(row);
+            ASSERT_TRUE(difference) << "row " << k << ", " << column;
+            EXPECT_EQ(difference->column, column) << "row " << k;
+        }
+    }
+    EXPECT_GT(undone, 20u);
+}
+
+TEST_P(BothTasks, AnUndoneRowWithoutAnAnswerFollowsOneWithIt) {
+    std::vector<Trial> rows = wholeSession(design);
+    Session session = replayed(design, rows, 5);
+    rows[5].status = TrialStatus::undone;
+    rows[5].response.reset();
+    EXPECT_EQ(session.replay(rows[5]).value().column, "response");
 }
 
 TEST(Session, RefusesAResponseOfTheOtherTask) {

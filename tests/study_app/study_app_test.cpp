@@ -334,9 +334,8 @@ TEST(StudyApp, ChecksEveryShippedDesign) {
         const auto result = studyApp({"--check", tests::shippedDesignFile(design).string(),
                                       "--observers", "20", "--px-per-deg", "60"});
         EXPECT_EQ(result.exitCode, 0) << result.err;
-        EXPECT_THAT(result.out,
-                    AllOf(HasSubstr("conditions, "), HasSubstr("sd with 20 observers"),
-                          HasSubstr("a pixel is 1.00 arc minutes")));
+        EXPECT_THAT(result.out, AllOf(HasSubstr("conditions, "), HasSubstr("sd with 20 observers"),
+                                      HasSubstr("a pixel is 1.00 arc minutes")));
         EXPECT_THAT(result.out, testing::Not(HasSubstr("warning"))) << "a shipped design fits";
     }
 }

@@ -109,14 +109,57 @@ TEST_F(WindowTrouble, RepeatsATrialInWhichTheWindowWasDisturbed) {
 }
 
 TEST_F(WindowTrouble, DoesNotShowStimuliThatTheWindowCannotHold) {
-    auto with = arguments();
-    with.insert(with.end(), {"--window-size", "500", "400"});
-    WindowPerson person(server_, folder_.path(), with);
-    agree(person);
+    WindowPerson person(server_, folder_.path(), arguments());
+    person.waitFor("screen instructions");
+    person.xdotool({"windowsize", "--sync", person.window(), "500", "400"});
+    person.press("Return");
     person.waitFor("screen pause");
     person.xdotool({"windowsize", person.window(), "700", "400"});
     person.press("Return");
     EXPECT_EQ(answer(person, "left"), "row 1 ok");
+}
+
+TEST_F(WindowTrouble, SaysAtTheSetUpThatTheWindowIsTooSmallForTheDesign) {
+    auto with = arguments();
+    with.insert(with.end(), {"--window-size", "500", "400"});
+    {
+        WindowPerson person(server_, folder_.path(), with);
+        EXPECT_EQ(person.exitCode(), 1);
+        EXPECT_THAT(person.errors(), HasSubstr("The stimuli need 520 x 240 pixels, the window has "
+                                               "500 x 400"));
+    }
+    std::erase(with, "--start");
+    WindowPerson person(server_, folder_.path(), with);
+    person.waitFor("screen setup");
+    person.press("Return");
+    EXPECT_THAT(person.waitFor("problem"), HasSubstr("The stimuli need 520 x 240 pixels"));
+    person.xdotool({"windowsize", "--sync", person.window(), "700", "400"});
+    person.press("Return");
+    person.waitFor("screen calibration");
+    EXPECT_FALSE(std::filesystem::exists(data()));
+}
+
+TEST_F(WindowTrouble, DoesNotBeginAnewWhereAResumedSessionsFolderWentAwayBeforeConsent) {
+    {
+        WindowPerson person(server_, folder_.path(), arguments());
+        agree(person);
+        for (int i = 0; i < 3; ++i) answer(person, "left");
+        person.waitFor("stimulus 4");
+    }
+    WindowPerson person(server_, folder_.path(), arguments());
+    person.waitFor("screen instructions");
+    std::filesystem::rename(data(), file("away"));
+    person.press("Return");
+    EXPECT_THAT(person.waitFor("problem"), HasSubstr("must hold the 3 that were there"));
+    person.press("Return");  // whoever does not read it
+    EXPECT_THAT(person.waitFor("problem"), HasSubstr("must hold the 3 that were there"));
+    EXPECT_FALSE(std::filesystem::exists(data()));
+    std::filesystem::rename(file("away"), data());
+    for (const char* screen : {"screen calibration", "screen instructions", "screen trials"}) {
+        person.press("Return");
+        person.waitFor(screen);
+    }
+    EXPECT_EQ(answer(person, "left"), "row 4 ok");
 }
 
 TEST_F(WindowTrouble, RepeatsATrialDuringWhichADisplayWasUnplugged) {
