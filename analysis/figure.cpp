@@ -6,9 +6,11 @@
 #include <iterator>
 #include <sstream>
 #include <string_view>
+#include <thread>
 
 #include "analysis/gnuplot.h"
 #include "analysis/number_text.h"
+#include "analysis/parallel.h"
 #include "records/html_page.h"
 #include "records/whole_file.h"
 
@@ -43,6 +45,30 @@ std::string withoutCommands(std::string svg) {
     return svg;
 }
 
+std::string scriptName(const Figure& figure) {
+    return figure.name + ".gp";
+}
+
+// The scripts, divided among as many runs of gnuplot as there are processors. What a script takes
+// goes by its data; starting gnuplot takes as long as a small figure.
+std::vector<std::vector<std::string>> evenShares(std::span<const Figure> figures) {
+    std::vector<const Figure*> largestFirst;
+    for (const Figure& figure : figures) largestFirst.push_back(&figure);
+    std::stable_sort(
+        largestFirst.begin(), largestFirst.end(),
+        [](const Figure* a, const Figure* b) { return a->data.size() > b->data.size(); });
+    const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t runs = std::min(figures.size(), processors);
+    std::vector<std::vector<std::string>> shares(runs);
+    std::vector<std::size_t> load(runs, 0);
+    for (const Figure* figure : largestFirst) {
+        const auto least = std::min_element(load.begin(), load.end());
+        shares[static_cast<std::size_t>(least - load.begin())].push_back(scriptName(*figure));
+        *least += figure->data.size() + figure->plot.size();
+    }
+    return shares;
+}
+
 }  // namespace
 
 std::string scriptOf(const Figure& figure) {
@@ -67,12 +93,11 @@ std::string scriptOf(const Figure& figure) {
 
 void drawFigures(const std::filesystem::path& folder, std::span<const Figure> figures) {
     records::createFolders(folder);
-    std::vector<std::string> scripts;
     for (const Figure& figure : figures) {
-        scripts.push_back(figure.name + ".gp");
-        records::writeWholeFile(folder / scripts.back(), scriptOf(figure));
+        records::writeWholeFile(folder / scriptName(figure), scriptOf(figure));
     }
-    runGnuplot(folder, scripts);
+    const std::vector<std::vector<std::string>> shares = evenShares(figures);
+    inParallel(shares.size(), 0, [&](std::size_t i) { runGnuplot(folder, shares[i]); });
     for (const Figure& figure : figures) {
         const std::filesystem::path svg = folder / (figure.name + ".svg");
         records::writeWholeFile(

@@ -103,11 +103,15 @@ std::string groupFinding(const SlopeAnalysis& analysis) {
     };
     return found + "They differ, from c = " + cOf(least) + " (" +
            analysis.study.groups[least].name + ") to " + cOf(most) + " (" +
-           analysis.study.groups[most].name +
-           (analysis.slope.lawRejected ? ", over all sizes" : "") + "). The headline, of " +
-           analysis.slope.worstGroup +
-           (analysis.slope.lawRejected ? " at its worst size, "
-                                       : " and corrected for being the largest of noisy ones, ") +
+           analysis.study.groups[most].name + "). " +
+           (analysis.slope.lawRejected
+                ? "These take one c for all sizes of a group; the headline comes from a second "
+                  "fit, in which c changes with the size, and "
+                : "The headline ") +
+           "is that of " + analysis.slope.worstGroup +
+           (analysis.slope.lawRejected
+                ? " at a = " + shortText(analysis.slope.worstArtifactPx.value_or(0)) + " px: it "
+                : ", corrected for being the largest of noisy ones: it ") +
            "serves all of them at the criterion; where only the easier ones occur, their own c is "
            "enough.";
 }

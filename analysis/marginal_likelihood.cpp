@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostModeSteps = 200;
 // Newton's decrement (twice the log-likelihood still to gain) that is near enough for a centre.
 constexpr double kModeReached = 1e-6;
-constexpr std::size_t kObserverPoints = 5, kCellPoints = 7;
+constexpr std::size_t kFinePoints[] = {5, 7}, kCoarsePoints[] = {3, 4};  // observer, cell
 
 double square(double v) {
     return v * v;
@@ -63,19 +62,18 @@ HermiteRule hermiteRule(std::size_t count) {
     return rule;
 }
 
-const HermiteRule& observerRule() {
-    static const HermiteRule rule = hermiteRule(kObserverPoints);
-    return rule;
-}
+struct Rules {
+    HermiteRule observer, cell;
+};
 
-const HermiteRule& cellRule() {
-    static const HermiteRule rule = hermiteRule(kCellPoints);
-    return rule;
+const Rules& rulesOf(Quadrature quadrature) {
+    static const Rules fine{hermiteRule(kFinePoints[0]), hermiteRule(kFinePoints[1])};
+    static const Rules coarse{hermiteRule(kCoarsePoints[0]), hermiteRule(kCoarsePoints[1])};
+    return quadrature == Quadrature::fine ? fine : coarse;
 }
 
 // Turns logarithms into weights that sum to one; returns the logarithm of their sum.
-template <std::size_t N>
-double normalise(std::array<double, N>& logs) {
+double normalise(std::vector<double>& logs) {
     const double largest = *std::max_element(logs.begin(), logs.end());
     double sum = 0;
     for (double& v : logs) sum += v = std::exp(v - largest);
@@ -231,70 +229,69 @@ bool MarginalLikelihood::adapt(const VectorXd& x) {
 double MarginalLikelihood::integrate(std::size_t i, const ModelParameters& at, VectorXd* gradient) {
     const auto& cells = model_.observers[i].cells;
     const Points& points = points_[i];
-    const HermiteRule& outer = observerRule();
-    const HermiteRule& inner = cellRule();
-    std::array<double, kObserverPoints> logOuter{}, bigU{};
-    for (std::size_t a = 0; a < logOuter.size(); ++a) {
-        bigU[a] = points.observer + points.observerSd * outer.point[a];
-        logOuter[a] = outer.logWeight[a] + std::log(points.observerSd) - 0.5 * square(bigU[a]);
+    const HermiteRule& outer = rulesOf(quadrature_).observer;
+    const HermiteRule& inner = rulesOf(quadrature_).cell;
+    const std::size_t outers = outer.point.size(), inners = inner.point.size();
+    for (auto* values : {&logOuter_, &bigU_}) values->resize(outers);
+    for (auto* values : {&bigN_, &y_}) values->resize(outers * inners);
+    weight_.resize(inners);
+    means_.assign(gradient ? cells.size() * outers : 0, {});
+    for (std::size_t a = 0; a < outers; ++a) {
+        bigU_[a] = points.observer + points.observerSd * outer.point[a];
+        logOuter_[a] = outer.logWeight[a] + std::log(points.observerSd) - 0.5 * square(bigU_[a]);
     }
-    // Per cell and outer point: means over the inner points.
-    struct Mean {
-        double y = 0, perY = 0, perYN = 0, perLnBeta = 0, perLapse = 0;
-    };
-    std::vector<std::array<Mean, kObserverPoints>> means(gradient ? cells.size() : 0);
-    std::array<double, kObserverPoints * kCellPoints> bigN{}, y{};
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        const double centre = location(i, k, at, 0, 0);
-        for (std::size_t a = 0; a < logOuter.size(); ++a) {
-            for (std::size_t j = 0; j < kCellPoints; ++j) {
-                const std::size_t p = a * kCellPoints + j;
-                bigN[p] = points.cell[k] + points.cellSlope[k] * (bigU[a] - points.observer) +
-                          points.cellSd[k] * inner.point[j];
-                y[p] = centre + at.tau * bigU[a] + at.omega * bigN[p];
+        const double centre = location(i, k, at, 0, 0), logSd = std::log(points.cellSd[k]);
+        for (std::size_t a = 0; a < outers; ++a) {
+            for (std::size_t j = 0; j < inners; ++j) {
+                const std::size_t p = a * inners + j;
+                bigN_[p] = points.cell[k] + points.cellSlope[k] * (bigU_[a] - points.observer) +
+                           points.cellSd[k] * inner.point[j];
+                y_[p] = centre + at.tau * bigU_[a] + at.omega * bigN_[p];
             }
         }
-        cellPoints_.evaluate(cells[k].trials, curve(i, cells[k].condition, at), y);
-        for (std::size_t a = 0; a < logOuter.size(); ++a) {
-            std::array<double, kCellPoints> weight{};
-            for (std::size_t j = 0; j < kCellPoints; ++j) {
-                const std::size_t p = a * kCellPoints + j;
-                weight[j] = inner.logWeight[j] + std::log(points.cellSd[k]) -
-                            0.5 * square(bigN[p]) + cellPoints_.value[p];
+        cellPoints_.evaluate(cells[k].trials, curve(i, cells[k].condition, at), y_);
+        for (std::size_t a = 0; a < outers; ++a) {
+            for (std::size_t j = 0; j < inners; ++j) {
+                const std::size_t p = a * inners + j;
+                weight_[j] =
+                    inner.logWeight[j] + logSd - 0.5 * square(bigN_[p]) + cellPoints_.value[p];
             }
-            logOuter[a] += normalise(weight);
+            logOuter_[a] += normalise(weight_);
             if (!gradient) continue;
-            Mean& mean = means[k][a];
-            for (std::size_t j = 0; j < kCellPoints; ++j) {
-                const std::size_t p = a * kCellPoints + j;
-                mean.y += weight[j] * y[p];
-                mean.perY += weight[j] * cellPoints_.perY[p];
-                mean.perYN += weight[j] * cellPoints_.perY[p] * bigN[p];
-                mean.perLnBeta += weight[j] * cellPoints_.perLnBeta[p];
-                mean.perLapse += weight[j] * cellPoints_.perLapse[p];
+            Mean& mean = means_[k * outers + a];
+            for (std::size_t j = 0; j < inners; ++j) {
+                const std::size_t p = a * inners + j;
+                mean.y += weight_[j] * y_[p];
+                mean.perY += weight_[j] * cellPoints_.perY[p];
+                mean.perYN += weight_[j] * cellPoints_.perY[p] * bigN_[p];
+                mean.perLnBeta += weight_[j] * cellPoints_.perLnBeta[p];
+                mean.perLapse += weight_[j] * cellPoints_.perLapse[p];
             }
         }
     }
-    const double value = normalise(logOuter);
+    const double copies = model_.observers[i].copies;
+    const double value = copies * normalise(logOuter_);
     if (!gradient) return value;
 
     const auto fixedCount = model_.design.cols();
     const auto lapseIndex = fixedCount + model_.betaCount;
     observerEffect_[i] = 0;
-    for (std::size_t a = 0; a < logOuter.size(); ++a) {
-        observerEffect_[i] += logOuter[a] * at.tau * bigU[a];
+    for (std::size_t a = 0; a < outers; ++a) {
+        observerEffect_[i] += logOuter_[a] * at.tau * bigU_[a];
     }
     for (std::size_t k = 0; k < cells.size(); ++k) {
         double perY = 0, perLnBeta = 0;
         cellLocation_[i][k] = 0;
-        for (std::size_t a = 0; a < logOuter.size(); ++a) {
-            const Mean& mean = means[k][a];
-            cellLocation_[i][k] += logOuter[a] * mean.y;
-            perY += logOuter[a] * mean.perY;
-            perLnBeta += logOuter[a] * mean.perLnBeta;
-            (*gradient)[lapseIndex] += logOuter[a] * mean.perLapse;
-            (*gradient)[lapseIndex + 1] += logOuter[a] * mean.perY * bigU[a];
-            (*gradient)[lapseIndex + 2] += logOuter[a] * mean.perYN;
+        for (std::size_t a = 0; a < outers; ++a) {
+            const Mean& mean = means_[k * outers + a];
+            cellLocation_[i][k] += logOuter_[a] * mean.y;
+            const double weight = copies * logOuter_[a];
+            perY += weight * mean.perY;
+            perLnBeta += weight * mean.perLnBeta;
+            (*gradient)[lapseIndex] += weight * mean.perLapse;
+            (*gradient)[lapseIndex + 1] += weight * mean.perY * bigU_[a];
+            (*gradient)[lapseIndex + 2] += weight * mean.perYN;
         }
         const int condition = cells[k].condition;
         gradient->head(fixedCount) += perY * model_.design.row(condition).transpose();
@@ -343,17 +340,20 @@ double MarginalLikelihood::restriction(const ModelParameters& at, VectorXd* grad
     for (std::size_t i = 0; i < model_.observers.size(); ++i) {
         all.push_back(mixed(i, at));
         const auto& cells = model_.observers[i].cells;
+        const double copies = model_.observers[i].copies;
         for (std::size_t k = 0; k < cells.size(); ++k) {
             const double mk = all.back().m[static_cast<Eigen::Index>(k)];
-            m[cells[k].condition] += mk;
-            m2[cells[k].condition] += mk * mk;
+            m[cells[k].condition] += copies * mk;
+            m2[cells[k].condition] += copies * mk * mk;
         }
     }
     const auto squareForm = [&](const VectorXd& weights) {
         return MatrixXd(model_.design.transpose() * weights.asDiagonal() * model_.design);
     };
     information_ = squareForm(m);
-    for (const Mixed& one : all) information_ -= one.s * one.xm * one.xm.transpose();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        information_ -= model_.observers[i].copies * all[i].s * all[i].xm * all[i].xm.transpose();
+    }
     const Eigen::LLT<MatrixXd> factor(information_);
     if (factor.info() != Eigen::Success) return kNaN;
     if (gradient) {
@@ -368,8 +368,10 @@ double MarginalLikelihood::restriction(const ModelParameters& at, VectorXd* grad
                 cross += square(one.m[static_cast<Eigen::Index>(k)]) *
                          model_.design.row(model_.observers[i].cells[k].condition).dot(solved);
             }
-            perTau2 += leverage / square(one.bigS);
-            perOmega2 += -2 * one.s * cross + square(one.s) * one.m.squaredNorm() * leverage;
+            const double copies = model_.observers[i].copies;
+            perTau2 += copies * leverage / square(one.bigS);
+            perOmega2 +=
+                copies * (-2 * one.s * cross + square(one.s) * one.m.squaredNorm() * leverage);
         }
         const auto tauIndex = fixedCount + model_.betaCount + 1;
         (*gradient)[tauIndex] += at.tau * perTau2;
@@ -426,14 +428,15 @@ MarginalLikelihood::SpreadInformation MarginalLikelihood::spreadInformation() co
         const VectorXd mOne = one.m / one.bigS;
         const VectorXd xmOne = one.xm / one.bigS;
         const double sum2 = one.m.squaredNorm();
-        tt += square(mOne.sum());
-        tw += mOne.squaredNorm();
-        ww += sum2 - 2.0 * one.s * one.m.array().cube().sum() + square(one.s * sum2);
-        kTau += xmOne * xmOne.transpose();
-        kOmega += mx.transpose() * mx;
-        cubeTT += mOne.sum() * xmOne * xmOne.transpose();
-        cubeTW += xmOne * (mOne.transpose() * mx);
-        cubeWW += mx.transpose() * one.timesM(mx);
+        const double copies = model_.observers[i].copies;
+        tt += copies * square(mOne.sum());
+        tw += copies * mOne.squaredNorm();
+        ww += copies * (sum2 - 2.0 * one.s * one.m.array().cube().sum() + square(one.s * sum2));
+        kTau += copies * xmOne * xmOne.transpose();
+        kOmega += copies * mx.transpose() * mx;
+        cubeTT += copies * mOne.sum() * xmOne * xmOne.transpose();
+        cubeTW += copies * xmOne * (mOne.transpose() * mx);
+        cubeWW += copies * mx.transpose() * one.timesM(mx);
     }
     const auto correction = [&](const MatrixXd& cube, const MatrixXd& kA, const MatrixXd& kB) {
         return -2.0 * (inverse * cube).trace() + (inverse * kA * inverse * kB).trace();

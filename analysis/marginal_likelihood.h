@@ -52,6 +52,7 @@ struct ModelObserver {
     double gamma = 0.5;       ///< 0.5 in 2AFC; yes/no: the shrunk false-alarm rate
     double lapseGuess = 0.5;  ///< P(yes) on a lapse
     std::vector<ModelCell> cells;
+    int copies = 1;  ///< so many observers gave just these answers (draws of a bootstrap), >= 1
 };
 
 struct Model {
@@ -77,10 +78,17 @@ ModelParameters fromCoordinates(const Eigen::VectorXd& coordinates, const Model&
 
 enum class LikelihoodForm { plain, restricted };
 
+/// Points of the quadrature. `fine` is what estimates rest on; `coarse` takes a third of the time
+/// and leads the search to within a tenth of a standard error of the maximum.
+enum class Quadrature { coarse, fine };
+
 class MarginalLikelihood {
   public:
     /// `model` must outlive this. Every condition and beta index lies in its range.
     explicit MarginalLikelihood(const Model& model);
+
+    /// Fine until told otherwise; adapt() comes next.
+    void use(Quadrature quadrature) { quadrature_ = quadrature; }
 
     /// Places the quadrature points and the curvatures of J for parameters near `coordinates`.
     /// False where an observer's mode is not found.
@@ -129,9 +137,18 @@ class MarginalLikelihood {
     Mixed mixed(std::size_t observer, const ModelParameters& at) const;
     double restriction(const ModelParameters& at, Eigen::VectorXd* gradient);
 
+    // Means over the inner points of a cell, at one outer point.
+    struct Mean {
+        double y = 0, perY = 0, perYN = 0, perLnBeta = 0, perLapse = 0;
+    };
+
     const Model& model_;
+    Quadrature quadrature_ = Quadrature::fine;
     std::vector<Points> points_;
     CellPoints cellPoints_;
+    // Of integrate(), kept between calls for their memory.
+    std::vector<double> logOuter_, bigU_, weight_, bigN_, y_;
+    std::vector<Mean> means_;
     std::vector<double> observerEffect_;
     std::vector<std::vector<double>> cellLocation_;
     Eigen::MatrixXd information_;

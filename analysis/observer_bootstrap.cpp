@@ -24,20 +24,20 @@ struct Draw {
 Draw refitted(const Model& model, const RandomObserverFit& fit, const Eigen::MatrixXd& targets,
               std::mt19937_64& rng) {
     Model drawn = model;
-    const std::size_t n = model.observers.size();
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < n; ++i) {
-        chosen.push_back(static_cast<std::size_t>(quest::uniformBelow(rng, n)));
+    for (ModelObserver& observer : drawn.observers) observer.copies = 0;
+    for (std::size_t i = 0; i < model.observers.size(); ++i) {
+        ++drawn.observers[quest::uniformBelow(rng, model.observers.size())].copies;
     }
-    std::sort(chosen.begin(), chosen.end());
-    for (std::size_t i = 0; i < n; ++i) drawn.observers[i] = model.observers[chosen[i]];
+    std::erase_if(drawn.observers, [](const ModelObserver& one) { return one.copies == 0; });
     ModelParameters start = fit.parameters;
     start.lapse = std::clamp(start.lapse, kLeastLapse, kMostLapse);
     const bool spreadOfCells = fit.parameters.omega > 0 || fit.omegaAtZero;
     start.tau = std::max(start.tau, kLeastSpread);
     if (spreadOfCells) start.omega = std::max(start.omega, kLeastSpread);
-    const RandomObserverFit again =
-        fitRandomObservers(drawn, start, {.estimateOmega = spreadOfCells, .covariance = false});
+    const RandomObserverFit again = fitRandomObservers(drawn, start,
+                                                       {.estimateOmega = spreadOfCells,
+                                                        .covariance = false,
+                                                        .inverseHessian = fit.inverseHessian});
     Draw draw{.converged = again.converged};
     if (!draw.converged) return draw;
     const Eigen::VectorXd slopes = targets * again.parameters.fixed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/quasi_newton.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace analysis {
@@ -22,7 +23,7 @@ void update(Eigen::MatrixXd& inverse, const Eigen::VectorXd& step, const Eigen::
 }  // namespace
 
 Descent descend(const Objective& objective, const Eigen::VectorXd& start,
-                Eigen::MatrixXd& inverseHessian, double tolerance, int mostSteps) {
+                Eigen::MatrixXd& inverseHessian, double tolerance, double share, int mostSteps) {
     Descent at;
     at.x = start;
     Eigen::VectorXd gradient, nextGradient;
@@ -32,7 +33,7 @@ Descent descend(const Objective& objective, const Eigen::VectorXd& start,
         const Eigen::VectorXd direction = -inverseHessian * gradient;
         at.decrement = -direction.dot(gradient);
         if (taken == 0) at.firstDecrement = at.decrement;
-        at.converged = at.decrement < tolerance;
+        at.converged = at.decrement < std::max(tolerance, share * at.firstDecrement);
         if (at.converged) return at;
         double length = 1;
         at.blocked = false;

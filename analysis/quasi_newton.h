@@ -23,8 +23,10 @@ struct Descent {
     bool blocked = false;  ///< stopped where the function cannot be evaluated further on
 };
 
-/// Until the decrement is below `tolerance`. `inverseHessian` is used and updated.
+/// Until the decrement is below `tolerance`, or below that share of the first one. `inverseHessian`
+/// is used and updated.
 Descent descend(const Objective& objective, const Eigen::VectorXd& start,
-                Eigen::MatrixXd& inverseHessian, double tolerance, int mostSteps = 200);
+                Eigen::MatrixXd& inverseHessian, double tolerance, double share = 0,
+                int mostSteps = 200);
 
 }  // namespace analysis

@@ -26,10 +26,13 @@ constexpr double kDifferenceStep = 1e-2;  // of the Hessian, in the same units
 constexpr double kZeroSpread = 1e-4;  // log10 units: 0.02 % of r
 constexpr double kBoundAngle = 0.02;  // lapse within 6e-5 of the bound
 constexpr double kSecondLapse = 0.04, kScaleOfSpread = 0.03;
-constexpr int kMostRounds = 40;  // of adapting the points and climbing
+constexpr double kSameLapse = 0.002;  // two searches that end this near have found one maximum
+constexpr int kMostRounds = 40;       // of adapting the points and climbing
 constexpr int kFullRounds = 6;
 // A round that starts this near to its maximum (.01 standard errors) is the last.
 constexpr double kSettled = 1e-4;
+constexpr double kEnoughOfARound = 1e-3;  // of its first decrement: the next one moves the maximum
+constexpr double kLeastSpread = 0.01;     // log10 units; off zero, where the likelihood is level
 constexpr double kHalfPi = 1.57079632679489662;
 
 // Scaled free coordinates <-> all coordinates.
@@ -51,16 +54,24 @@ VectorXd placed(VectorXd x, const VectorXd& scaled, const VectorXd& scale,
     return x;
 }
 
-// The information on b is known before anything is fitted; the rest starts at its typical size.
+// Where a search begins: the information on b is known, and the rest as it was found in like data
+// (all coordinates, of which the last ones are the same in every design), or its typical size.
 MatrixXd firstInverseHessian(const MatrixXd& information, const VectorXd& scale,
-                             const std::vector<int>& free) {
+                             const std::vector<int>& free, const MatrixXd& known) {
     const auto p = information.rows();
-    const MatrixXd covariance = information.ldlt().solve(MatrixXd::Identity(p, p));
-    const auto n = static_cast<Eigen::Index>(free.size());
-    MatrixXd inverse = MatrixXd::Identity(n, n);
-    const VectorXd unit = scale.head(p).cwiseInverse();
-    inverse.topLeftCorner(p, p) = unit.asDiagonal() * covariance * unit.asDiagonal();
-    return inverse;
+    const bool sameDesign = known.rows() == scale.size();
+    MatrixXd whole = MatrixXd::Identity(scale.size(), scale.size());
+    const auto common = std::min(known.rows(), scale.size() - p);
+    if (sameDesign) {
+        whole = known;
+    } else {
+        const VectorXd unit = scale.head(p).cwiseInverse();
+        whole.topLeftCorner(p, p) = unit.asDiagonal() *
+                                    information.ldlt().solve(MatrixXd::Identity(p, p)) *
+                                    unit.asDiagonal();
+        whole.bottomRightCorner(common, common) = known.bottomRightCorner(common, common);
+    }
+    return whole(free, free);
 }
 
 // Second derivatives of -ln L in the scaled free coordinates, from differences of the exact
@@ -119,10 +130,22 @@ std::vector<int> freeCoordinates(const Layout& layout, const FitOptions& options
 struct Search {
     VectorXd x;
     std::vector<int> free;
-    double value = 0;  // of the likelihood, its points adapted at x
+    MatrixXd inverseHessian;  // of the scaled free coordinates
+    double value = 0;         // of the likelihood, its points adapted at x
+    bool astray = false;      // where the likelihood cannot be evaluated
     bool converged = false, lapseAtBound = false, tauAtZero = false, omegaAtZero = false;
     std::string message;
 };
+
+// The inverse Hessian of the others, one coordinate held.
+MatrixXd withoutCoordinate(const MatrixXd& inverse, Eigen::Index held) {
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index j = 0; j < inverse.rows(); ++j) {
+        if (j != held) others.push_back(j);
+    }
+    const VectorXd column = inverse.col(held)(others);
+    return inverse(others, others) - column * column.transpose() / inverse(held, held);
+}
 
 // A parameter whose optimum is on its bound is put there and held, so that the Hessian of the rest
 // means something. True when one was.
@@ -131,6 +154,8 @@ bool holdBounds(const Layout& layout, Search& search) {
     const auto hold = [&](int index, double value, bool& flag) {
         const auto found = std::find(search.free.begin(), search.free.end(), index);
         if (found == search.free.end()) return;
+        search.inverseHessian =
+            withoutCoordinate(search.inverseHessian, found - search.free.begin());
         search.free.erase(found);
         search.x[index] = value;
         flag = held = true;
@@ -143,11 +168,22 @@ bool holdBounds(const Layout& layout, Search& search) {
     return held;
 }
 
+// How far a search goes.
+struct Effort {
+    Quadrature quadrature;
+    double decrement, settled;  // as kDecrement and kSettled
+    int rounds;
+    bool holdsBounds;
+};
+constexpr Effort kWhole{Quadrature::fine, kDecrement, kSettled, kMostRounds, true};
+// At a third of the cost, to where the quadrature's own error begins.
+constexpr Effort kApproach{Quadrature::coarse, 1e-2, 0.1, 4, false};
+
 // Adapts the quadrature points and climbs, in turn, until a round starts at its own maximum.
-Search climb(MarginalLikelihood& likelihood, const FitOptions& options, const Layout& layout,
-             const VectorXd& scale, const VectorXd& start, int& evaluations) {
-    Search search{.x = start, .free = freeCoordinates(layout, options), .message = {}};
-    MatrixXd inverseHessian;
+void climb(MarginalLikelihood& likelihood, const FitOptions& options, const Layout& layout,
+           const VectorXd& scale, const Effort& effort, Search& search, int& evaluations) {
+    likelihood.use(effort.quadrature);
+    search.converged = false;
     VectorXd full;
     const auto objective = [&](const VectorXd& scaled, VectorXd* gradient) {
         ++evaluations;
@@ -158,31 +194,71 @@ Search climb(MarginalLikelihood& likelihood, const FitOptions& options, const La
         }
         return -value;
     };
-    for (int round = 0; round < kMostRounds && !search.converged; ++round) {
-        const bool adapted = likelihood.adapt(search.x);
-        if (adapted) search.value = likelihood.evaluate(search.x, options.form, nullptr);
-        ++evaluations;
-        if (!adapted || !std::isfinite(search.value)) {
-            search.message = "the likelihood cannot be evaluated";
-            return search;
-        }
-        if (inverseHessian.size() == 0) {
-            inverseHessian = firstInverseHessian(likelihood.fixedInformation(), scale, search.free);
+    for (int round = 0; round < effort.rounds && !search.converged; ++round) {
+        search.message = "the likelihood cannot be evaluated";
+        search.astray = true;
+        if (!likelihood.adapt(search.x)) return;
+        if (search.inverseHessian.size() == 0) {
+            likelihood.evaluate(search.x, options.form, nullptr);
+            ++evaluations;
+            search.inverseHessian = firstInverseHessian(likelihood.fixedInformation(), scale,
+                                                        search.free, options.inverseHessian);
         }
         const VectorXd from = picked(search.x, scale, search.free);
-        const Descent descent = descend(objective, from, inverseHessian, kDecrement);
-        const bool settled = descent.converged && descent.firstDecrement < kSettled;
+        const Descent descent =
+            descend(objective, from, search.inverseHessian, effort.decrement, kEnoughOfARound);
+        if (!std::isfinite(descent.value)) return;
+        search.astray = false;
+        const bool settled = descent.converged && descent.firstDecrement < effort.settled;
         // Adapting and climbing may chase each other; half steps end that.
         const double share = !settled && round >= kFullRounds ? 0.5 : 1.0;
         search.x = placed(search.x, from + share * (descent.x - from), scale, search.free);
         search.value = -descent.value;
-        search.converged = settled && !holdBounds(layout, search);
-        if (settled && !search.converged) inverseHessian.resize(0, 0);
+        search.converged = settled && !(effort.holdsBounds && holdBounds(layout, search));
         search.message = descent.converged ? "the maximum moved with every adaptation"
                                            : "the search for the maximum stopped short of it";
     }
     if (search.converged) search.message.clear();
+}
+
+// In all coordinates; those that were held at their typical size.
+MatrixXd wholeInverseHessian(const Search& search, const Layout& layout) {
+    MatrixXd whole = MatrixXd::Identity(layout.omega + 1, layout.omega + 1);
+    if (search.inverseHessian.size() > 0) whole(search.free, search.free) = search.inverseHessian;
+    return whole;
+}
+
+Search startOfSearch(const ModelParameters& start, const FitOptions& options,
+                     const Layout& layout) {
+    return {.x = toCoordinates(start),
+            .free = freeCoordinates(layout, options),
+            .inverseHessian = {},
+            .message = {}};
+}
+
+// From where the approach led, off the bounds, where the likelihood is level in its coordinates.
+void finish(MarginalLikelihood& likelihood, const FitOptions& options, const Layout& layout,
+            const VectorXd& scale, Search& search, int& evaluations) {
+    for (const int spread : {layout.tau, layout.omega}) {
+        const bool held =
+            std::find(search.free.begin(), search.free.end(), spread) == search.free.end();
+        if (!held) search.x[spread] = std::max(kLeastSpread, std::abs(search.x[spread]));
+    }
+    climb(likelihood, options, layout, scale, kWhole, search, evaluations);
+}
+
+Search searchFrom(const ModelParameters& start, MarginalLikelihood& likelihood,
+                  const FitOptions& options, const Layout& layout, const VectorXd& scale,
+                  int& evaluations) {
+    Search search = startOfSearch(start, options, layout);
+    climb(likelihood, options, layout, scale, kApproach, search, evaluations);
+    if (search.astray) search = startOfSearch(start, options, layout);
+    finish(likelihood, options, layout, scale, search, evaluations);
     return search;
+}
+
+double lapseOf(const Search& search, const Layout& layout) {
+    return std::pow(std::sin(search.x[layout.lapse]), 2) * kLapseLimit;
 }
 
 void keepEffects(const Model& model, const MarginalLikelihood& likelihood, RandomObserverFit& fit) {
@@ -218,6 +294,12 @@ void addCovariance(MarginalLikelihood& likelihood, const FitOptions& options, co
     fit.covariance = unit.asDiagonal() * inverse.topLeftCorner(named, named) * unit.asDiagonal();
 }
 
+int observerCount(const Model& model) {
+    int count = 0;
+    for (const ModelObserver& observer : model.observers) count += observer.copies;
+    return count;
+}
+
 }  // namespace
 
 RandomObserverFit fitRandomObservers(const Model& model, const ModelParameters& start,
@@ -225,11 +307,11 @@ RandomObserverFit fitRandomObservers(const Model& model, const ModelParameters& 
     MarginalLikelihood likelihood(model);
     RandomObserverFit fit;
     // Without tau observers cannot be told from what the design tells apart: as one observer.
-    fit.observers = options.estimateTau ? static_cast<int>(model.observers.size()) : 1;
+    fit.observers = options.estimateTau ? observerCount(model) : 1;
     fit.parameters = start;
     const Layout layout(model);
     const VectorXd scale = coordinateScale(layout);
-    Search best = climb(likelihood, options, layout, scale, toCoordinates(start), fit.evaluations);
+    Search best = searchFrom(start, likelihood, options, layout, scale, fit.evaluations);
     // Few lapses and a shallow curve, or more of them and a steeper one: small studies may have a
     // maximum at each.
     if (best.lapseAtBound || !best.converged) {
@@ -237,15 +319,22 @@ RandomObserverFit fitRandomObservers(const Model& model, const ModelParameters& 
         again.lapse = kSecondLapse;
         if (options.estimateTau) again.tau = std::max(again.tau, kScaleOfSpread);
         if (options.estimateOmega) again.omega = std::max(again.omega, kScaleOfSpread);
-        Search other =
-            climb(likelihood, options, layout, scale, toCoordinates(again), fit.evaluations);
-        if (other.converged && (!best.converged || other.value > best.value)) best = other;
+        Search other = startOfSearch(again, options, layout);
+        other.inverseHessian = wholeInverseHessian(best, layout)(other.free, other.free);
+        climb(likelihood, options, layout, scale, kApproach, other, fit.evaluations);
+        if (!best.converged || !other.converged ||
+            std::abs(lapseOf(other, layout) - lapseOf(best, layout)) > kSameLapse) {
+            finish(likelihood, options, layout, scale, other, fit.evaluations);
+            if (other.converged && (!best.converged || other.value > best.value)) best = other;
+        }
     }
     fit.converged = best.converged;
     fit.message = best.message;
     fit.lapseAtBound = best.lapseAtBound;
     fit.tauAtZero = best.tauAtZero;
     fit.omegaAtZero = best.omegaAtZero;
+    fit.inverseHessian = wholeInverseHessian(best, layout);
+    likelihood.use(Quadrature::fine);
     if (fit.converged) likelihood.adapt(best.x);
     if (fit.converged && options.covariance) {
         addCovariance(likelihood, options, layout, best.x, scale, best.free, fit);

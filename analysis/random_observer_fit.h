@@ -29,6 +29,9 @@ struct FitOptions {
     bool estimateOmega = true;  ///< else likewise (0 where no observer has two conditions)
     bool estimateCurve = true;  ///< beta and lapse; else they stay
     bool covariance = true;     ///< off: estimates and log-likelihood alone, in half the time
+    /// RandomObserverFit::inverseHessian of a fit of like data, of the same design or with the same
+    /// patterns: fewer steps.
+    Eigen::MatrixXd inverseHessian = {};
 };
 
 /// A fit that failed is a result: `converged` is false and `message` says why.
@@ -39,6 +42,7 @@ struct RandomObserverFit {
     double logLikelihood = 0;  ///< priors included; comparable between designs in the plain form
     int evaluations = 0;       ///< of likelihood and gradient
     bool lapseAtBound = false, tauAtZero = false, omegaAtZero = false;
+    Eigen::MatrixXd inverseHessian;  ///< of -ln L as the search left it, in its own units
 
     /// Of (b, ln beta...), tau and omega held, lapse taken into account; from the Hessian of the
     /// marginal likelihood with priors. Empty when it was not asked for or is not positive

@@ -317,6 +317,13 @@ TextTable groupReport(const SlopeAnalysis& analysis) {
             "origin.",
         .head = {"group", "observers", "trials", "c", "two-stage", "censored", "through origin"},
         .rows = {}};
+    if (analysis.slope.lawRejected) {
+        table.caption +=
+            " These take one c for all sizes of a group. The headline is not among them: since the "
+            "law is rejected it comes from a second fit, in which c changes with the size, read at "
+            "a = " +
+            shortText(analysis.slope.worstArtifactPx.value_or(0)) + " px, where it is largest.";
+    }
     for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
         const GroupResult& result = analysis.groups[g];
         std::string name = analysis.study.groups[g].name;
@@ -428,6 +435,67 @@ TextTable screeningReport(const SlopeAnalysis& analysis) {
     return table;
 }
 
+struct WithAndWithout {
+    std::string quantity;
+    bool slope;  // log10, shown as c
+    double value;
+    std::optional<records::Interval> ci95;
+};
+
+std::vector<WithAndWithout> quantitiesOf(const SlopeResult& result) {
+    const auto groups = static_cast<Eigen::Index>(result.groupNames.size());
+    const ModelParameters& fitted = result.law.parameters;
+    std::vector<WithAndWithout> rows = {
+        {"headline", true, result.headline.value, result.headline.ci95},
+        {"90th-percentile observer", true, result.headline.value90, result.headline.ci95For90}};
+    for (Eigen::Index g = 0; g < groups; ++g) {
+        const LinearEstimate c = linearEstimate(result.law, Eigen::VectorXd::Unit(groups, g));
+        rows.push_back(
+            {"group " + result.groupNames[static_cast<std::size_t>(g)], true, c.value, c.ci95()});
+    }
+    if (result.kappa) {
+        rows.push_back({"exponent kappa", false, result.kappa->value, result.kappa->ci95()});
+    }
+    rows.push_back({"sd between observers (log10)", false, fitted.tau, {}});
+    rows.push_back({"sd between an observer's conditions (log10)", false, fitted.omega, {}});
+    rows.push_back({"lapse rate", false, fitted.lapse, {}});
+    return rows;
+}
+
+// Everything that screening can have moved, beside what it is without screening.
+TextTable everyoneTable(const SlopeAnalysis& analysis, bool forPeople) {
+    TextTable table{.name = "with_everyone",
+                    .caption = "What leaving observers out changes: the same fits with everyone.",
+                    .head = forPeople ? Row{"quantity", "screened", "with everyone"}
+                                      : Row{"quantity", "screened", "screened_low", "screened_high",
+                                            "everyone", "everyone_low", "everyone_high"},
+                    .rows = {}};
+    if (!analysis.everyone) return table;
+    const std::vector<WithAndWithout> all = quantitiesOf(*analysis.everyone);
+    for (const WithAndWithout& screened : quantitiesOf(analysis.slope)) {
+        const auto same = std::find_if(all.begin(), all.end(), [&](const WithAndWithout& one) {
+            return one.quantity == screened.quantity;
+        });
+        Row row = {screened.quantity};
+        for (const WithAndWithout* one : {&screened, same == all.end() ? nullptr : &*same}) {
+            if (forPeople) {
+                row.push_back(!one         ? kUnknown
+                              : one->slope ? slopeText(one->value, one->ci95)
+                              : one->ci95  ? estimateText(one->value, one->ci95)
+                                           : fixedText(one->value, 3));
+            } else if (one && one->slope) {
+                appendSlope(row, one->value, one->ci95);
+            } else {
+                row.push_back(one ? full(one->value) : kUnknown);
+                row.push_back(one && one->ci95 ? full(one->ci95->low) : kUnknown);
+                row.push_back(one && one->ci95 ? full(one->ci95->high) : kUnknown);
+            }
+        }
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
 // c never stands without what it was measured as: the same in every row, for tables that are read
 // apart from slope.json.
 TextTable withTerms(TextTable table, const SlopeAnalysis& analysis) {
@@ -450,21 +518,25 @@ TextTable withTerms(TextTable table, const SlopeAnalysis& analysis) {
 }  // namespace
 
 std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference) {
-    return {withTerms(groupFile(analysis), analysis),
-            withTerms(conditionFile(analysis, reference), analysis),
-            withTerms(thresholdFile(analysis), analysis),
-            withTerms(observerFile(analysis), analysis),
-            withTerms(estimatorFile(analysis), analysis),
-            betaTable(analysis, false),
-            withTerms(audienceTable(analysis, false), analysis),
-            screeningTable(analysis)};
+    std::vector<TextTable> tables = {withTerms(groupFile(analysis), analysis),
+                                     withTerms(conditionFile(analysis, reference), analysis),
+                                     withTerms(thresholdFile(analysis), analysis),
+                                     withTerms(observerFile(analysis), analysis),
+                                     withTerms(estimatorFile(analysis), analysis),
+                                     betaTable(analysis, false),
+                                     withTerms(audienceTable(analysis, false), analysis),
+                                     screeningTable(analysis)};
+    if (analysis.everyone) tables.push_back(withTerms(everyoneTable(analysis, false), analysis));
+    return tables;
 }
 
 std::vector<TextTable> reportTables(const SlopeAnalysis& analysis,
                                     const ReferenceSizes& reference) {
     std::vector<TextTable> tables = {
-        groupReport(analysis),     conditionReport(analysis, reference), estimatorReport(analysis),
-        betaTable(analysis, true), audienceTable(analysis, true),        screeningReport(analysis)};
+        groupReport(analysis),         conditionReport(analysis, reference),
+        estimatorReport(analysis),     betaTable(analysis, true),
+        audienceTable(analysis, true), screeningReport(analysis),
+        everyoneTable(analysis, true)};
     std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
     return tables;
 }

@@ -20,9 +20,11 @@ struct TextTable {
 };
 
 /// Full digits, `n/a` for what cannot be had: groups, conditions, thresholds (observer x
-/// condition), observers, estimators, beta, audience, screening.
+/// condition), observers, estimators, beta, audience, screening, and with_everyone where screening
+/// left somebody out.
 std::vector<TextTable> fileTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference);
-/// For people: groups, conditions, estimators, beta, audience, screening; without the empty ones.
+/// For people, without the empty ones: groups, conditions, estimators, beta, audience, screening,
+/// and what the numbers are with everyone.
 std::vector<TextTable> reportTables(const SlopeAnalysis& analysis, const ReferenceSizes& reference);
 
 std::string tsvText(const TextTable& table);

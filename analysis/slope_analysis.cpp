@@ -113,7 +113,8 @@ RandomObserverFit fitFresh(const Study& study, const MatrixXd& design, double cr
 
 // From another fit of the same study: a few steps.
 RandomObserverFit fitFrom(const Fitted& from, const Study& study, const MatrixXd& design,
-                          double criterion, const FitOptions& options = {}) {
+                          double criterion, FitOptions options = {}) {
+    options.inverseHessian = from.fit.inverseHessian;
     return fit(study, design, criterion, options, from.design * from.fit.parameters.fixed,
                &from.fit.parameters);
 }
@@ -124,7 +125,7 @@ RatioTest ratioTest(const RandomObserverFit& narrow, const RandomObserverFit& wi
     return {statistic, degreesOfFreedom, chiSquaredSurvival(statistic, degreesOfFreedom)};
 }
 
-constexpr FitOptions kForRatio{.form = LikelihoodForm::plain, .covariance = false};
+const FitOptions kForRatio{.form = LikelihoodForm::plain, .covariance = false};
 
 void noteConvergence(const RandomObserverFit& fit, const std::string& what,
                      std::vector<std::string>& notices) {
@@ -203,6 +204,7 @@ SlopeResult slopeOf(const Study& study, const AnalysisOptions& options,
                     std::vector<std::string>& notices, std::optional<RandomObserverFit>& plain,
                     StageTimes* times) {
     SlopeResult result;
+    for (const Group& group : study.groups) result.groupNames.push_back(group.name);
     const MatrixXd perGroup = perGroupDesign(study);
     result.law = fitFresh(study, perGroup, options.criterion);
     refuseStrayFit(study, options.criterion, result.law);

@@ -77,6 +77,7 @@ struct FactorTest {
 /// The slope of one set of observers: the fit, the test of the law, and the headline that follows.
 struct SlopeResult {
     RandomObserverFit law;                     ///< r = c a, a slope per group
+    std::vector<std::string> groupNames;       ///< of its slopes
     std::optional<RandomObserverFit> sizeFit;  ///< r = c a0 (a/a0)^kappa; absent with one size
     std::optional<LinearEstimate> kappa;       ///< the exponent, 1 under the law
     std::optional<RatioTest> kappaTest;

@@ -133,9 +133,9 @@ std::string formatted(const char* format, double value) {
     return text;
 }
 
-// ".646": a share without its leading zero.
+// ".6465", ".1": a share without its leading zero.
 std::string shareText(double share) {
-    const std::string text = formatted("%.3f", share);
+    const std::string text = formatted("%.4g", share);
     return text.starts_with("0.") ? text.substr(1) : text;
 }
 

@@ -72,7 +72,7 @@ struct Slope {
 
 /// The headline in one sentence, for every place that shows c, since c means nothing without its
 /// criterion, task, kernel, encoding and psychometric slope:
-/// "c = 3.41 [3.20, 3.63] (r = c a; F* = .646, 82 % correct in 2AFC; disc; srgb; beta 3.5; worst
+/// "c = 3.41 [3.20, 3.63] (r = c a; F* = .6465, 82 % correct in 2AFC; disc; srgb; beta 3.5; worst
 /// group step, lit 1)".
 std::string describe(const Slope& slope);
 /// The same sentence in its two parts, for a headline with its meaning below: what is before the

@@ -7,6 +7,7 @@
 
 #include "analysis/slope_analysis.h"
 #include "analysis/slope_model.h"
+#include "quest/random.h"
 #include "tests/analysis/simulated_study.h"
 
 namespace {
@@ -51,6 +52,47 @@ TEST(LackOfFit, FindsNothingWhereTheModelHolds) {
     EXPECT_NEAR(ratio, 1, 0.45);
     EXPECT_NEAR(shift, 0, 4 * 0.02 / std::sqrt(studies));
     EXPECT_LE(rejected, 8);  // of 40 at 5 %: more with probability 2e-4
+}
+
+// Answers that scatter more than one curve for all allows: every second observer guesses on
+// `guesses` of the trials, in runs of `run` trials each, as somebody does who looks away now and
+// then.
+std::vector<records::TrialTable> inattentive(std::uint64_t seed, double guesses, std::size_t run) {
+    tests::StudyPlan plan = kPlan;
+    plan.observers = 10;
+    auto tables = tablesOf(plan, seed);
+    std::mt19937_64 rng(seed + 1000);
+    for (std::size_t i = 0; i < tables.size(); i += 2) {
+        bool looksAway = false;
+        for (std::size_t t = 0; t < tables[i].trials.size(); ++t) {
+            if (t % run == 0) looksAway = quest::uniform01(rng) < guesses;
+            if (looksAway) tables[i].trials[t].correct = quest::uniform01(rng) < 0.5;
+        }
+    }
+    return tables;
+}
+
+int dispersionsRejected(int studies, double guesses, std::size_t run, double& ratio) {
+    int rejected = 0;
+    ratio = 0;
+    for (int s = 0; s < studies; ++s) {
+        const Checked one = checked(inattentive(600 + static_cast<std::uint64_t>(s), guesses, run));
+        if (!one.check.dispersion) continue;
+        rejected += one.check.dispersion->pValue < 0.05 ? 1 : 0;
+        ratio += one.check.dispersion->ratio() / studies;
+    }
+    return rejected;
+}
+
+TEST(LackOfFit, FindsAnswersThatScatterMoreThanTheModelSays) {
+    double ratio = 0, attentive = 0;
+    const int studies = 10;
+    EXPECT_GE(dispersionsRejected(studies, 0.3, 10, ratio), 8) << "X^2/df " << ratio;
+    EXPECT_GT(ratio, 1.5);
+    // The same observers, none of whom looks away: one in twenty is allowed. More than 3 of 10 with
+    // probability .001.
+    EXPECT_LE(dispersionsRejected(studies, 0, 10, attentive), 3);
+    EXPECT_NEAR(attentive, 1, 0.45);
 }
 
 TEST(LackOfFit, FindsThatThresholdsMoved) {

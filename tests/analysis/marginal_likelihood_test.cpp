@@ -107,6 +107,42 @@ TEST(MarginalLikelihood, IsTheIntegralOverTheObservers) {
     }
 }
 
+TEST(MarginalLikelihood, CountsAnObserverAsOftenAsItSays) {
+    Model twice = smallModel(3, 15);
+    twice.observers.push_back(twice.observers[1]);
+    Model counted = smallModel(3, 15);
+    counted.observers[1].copies = 2;
+    const VectorXd x = toCoordinates(someParameters(twice));
+    for (const LikelihoodForm form : {LikelihoodForm::plain, LikelihoodForm::restricted}) {
+        MarginalLikelihood one(twice), other(counted);
+        ASSERT_TRUE(one.adapt(x) && other.adapt(x));
+        VectorXd oneGradient, otherGradient;
+        // The same terms in another order, rounded at 1e-15 of each.
+        EXPECT_NEAR(one.evaluate(x, form, &oneGradient), other.evaluate(x, form, &otherGradient),
+                    1e-10);
+        EXPECT_LT((oneGradient - otherGradient).norm(), 1e-9 * oneGradient.norm());
+        const auto first = one.spreadInformation(), second = other.spreadInformation();
+        EXPECT_LT((first.information - second.information).norm(), 1e-9 * first.information.norm());
+        EXPECT_LT((first.perTau2 - second.perTau2).norm(), 1e-9 * first.perTau2.norm());
+        EXPECT_LT((first.perOmega2 - second.perOmega2).norm(), 1e-9 * first.perOmega2.norm());
+    }
+}
+
+TEST(MarginalLikelihood, OfFewPointsIsNearThatOfMany) {
+    const Model model = smallModel(4, 15);
+    const VectorXd x = toCoordinates(someParameters(model));
+    MarginalLikelihood likelihood(model);
+    ASSERT_TRUE(likelihood.adapt(x));
+    const double fine = likelihood.evaluate(x, LikelihoodForm::plain, nullptr);
+    likelihood.use(Quadrature::coarse);
+    ASSERT_TRUE(likelihood.adapt(x));
+    // A search that it leads starts within a tenth of a standard error: twice .005.
+    EXPECT_NEAR(likelihood.evaluate(x, LikelihoodForm::plain, nullptr), fine, 0.1);
+    likelihood.use(Quadrature::fine);
+    ASSERT_TRUE(likelihood.adapt(x));
+    EXPECT_NEAR(likelihood.evaluate(x, LikelihoodForm::plain, nullptr), fine, 1e-9);
+}
+
 TEST(MarginalLikelihood, WithoutSpreadIsTheSumOverTrials) {
     const Model model = smallModel(4, 15);
     ModelParameters at = someParameters(model);

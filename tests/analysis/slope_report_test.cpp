@@ -214,6 +214,33 @@ TEST(SlopeReport, HasATableOfEveryObserver) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
 }
 
+TEST(SlopeReport, HasEveryNumberWithAndWithoutTheExcludedAndOnlyWhereThereAreSome) {
+    StudyPlan plan = smallPlan();
+    plan.catchTrials = 20;
+    EXPECT_FALSE(fs::exists(Report(plan).out() / "with_everyone.tsv"));
+    plan.guessing = 1;
+    const Report report(plan);
+    ASSERT_TRUE(report.result().everyone);
+    EXPECT_THAT(report.page(), HasSubstr("What leaving observers out changes"));
+    const std::string table = report.file("with_everyone.tsv");
+    for (const char* row : {"headline\t", "90th-percentile observer\t", "group stair, lit 0.5\t",
+                            "exponent kappa\t", "lapse rate\t"}) {
+        EXPECT_THAT(table, HasSubstr(row));
+    }
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 + 4 + 1 + 3);
+}
+
+// The headline and the slopes of the groups come from two fits there, and may lie in any order.
+TEST(SlopeReport, SaysWhereHeadlineAndGroupsComeFromDifferentFits) {
+    StudyPlan plan{.observers = 8, .groups = tests::fourGroups(0.44, 0.44, 0.6, 0.6), .kappa = 0.7};
+    const Report bent(plan);
+    ASSERT_TRUE(bent.result().slope.lawRejected);
+    EXPECT_THAT(bent.page(),
+                HasSubstr("comes from a second fit, in which c changes with the size"));
+    EXPECT_THAT(bent.page(), HasSubstr("The headline is not among them"));
+    EXPECT_THAT(Report(smallPlan()).page(), Not(HasSubstr("second fit")));
+}
+
 // The paragraph says what was done and nothing else.
 TEST(MethodParagraph, FollowsTheOptions) {
     const analysis::Study study = tests::simulateStudy(smallPlan(), 3);

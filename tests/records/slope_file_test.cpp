@@ -56,13 +56,13 @@ TEST(SlopeFile, EverySlopeThatCanBeWrittenReadsBackExactly) {
 TEST(SlopeFile, SaysWhatTheNumberMeansInOneSentence) {
     Slope slope = exampleSlope();
     EXPECT_EQ(describe(slope),
-              "c = 3.41 [3.20, 3.63] (r = c a; F* = .646, 82 % correct in 2AFC; disc; srgb; "
+              "c = 3.41 [3.20, 3.63] (r = c a; F* = .6465, 82 % correct in 2AFC; disc; srgb; "
               "beta 3.5; worst group step, lit 1)");
     slope.c.ci95.reset();
     slope.task = Task::yesNo;
     slope.encoding = Encoding::code;
     EXPECT_EQ(describe(slope),
-              "c = 3.41 (no interval) (r = c a; F* = .646, 82 % seen in yes/no; disc; code; "
+              "c = 3.41 (no interval) (r = c a; F* = .6465, 82 % seen in yes/no; disc; code; "
               "beta 3.5; worst group step, lit 1)");
     EXPECT_EQ(describe(slope), describeValue(slope) + " (" + describeTerms(slope) + ")");
     slope.encoding.reset();
