@@ -11,10 +11,6 @@
 
 namespace analysis {
 
-/// What was published for this task (Kreuzer, section 5 and eq. 1): c, and stair-step artifacts of
-/// 10 px hidden at about 25 px, of 20 px at 50 px or more.
-inline constexpr double kPublishedSlope = 3.47;
-
 /// Threshold radius against artifact size, one panel per pattern (or angle) that was shown at two
 /// sizes or more (all, where none was): each condition with its interval, the fitted law with its
 /// band, and what was published (the paper's Fig. 4).

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/number_text.h"
+#include "analysis/published_slope.h"
 
 namespace analysis {
 namespace {
@@ -83,6 +84,21 @@ std::string lawFinding(const SlopeAnalysis& analysis) {
            " to " + shortText(most) + " px, " +
            (slope.kappa->value < 1 ? "too small for smaller artifacts."
                                    : "too small for larger artifacts.");
+}
+
+// What a reader of the published study looks for first.
+std::string publishedFinding(const SlopeAnalysis& analysis) {
+    const double criterion = analysis.options.criterion;
+    const WorstGroup& headline = analysis.slope.headline;
+    const double off = std::log10(publishedAt(criterion));
+    std::optional<records::Interval> ci95;
+    if (headline.ci95) ci95 = {headline.ci95->low - off, headline.ci95->high - off};
+    std::string text = "Its worst case was c = " + publishedText(criterion) +
+                       ", given without an interval; c here is " +
+                       slopeText(headline.value - off, ci95) + " times that.";
+    if (!ci95) return text;
+    if (ci95->low <= 0 && ci95->high >= 0) return text + " No difference is demonstrable.";
+    return text + " They differ: observers, task, screen and filter may all have a part in it.";
 }
 
 std::string groupFinding(const SlopeAnalysis& analysis) {
@@ -377,13 +393,18 @@ std::string comparisonText(const SlopeAnalysis& analysis) {
 }  // namespace
 
 std::vector<Finding> findings(const SlopeAnalysis& analysis) {
-    std::vector<Finding> found = {
-        {"Law r = c a", lawFinding(analysis)},      {"Groups", groupFinding(analysis)},
-        {"Observers", observerFinding(analysis)},   {"Audience", audienceFinding(analysis)},
-        {"Contrast", contrastFinding(analysis)},    {"Steepness", betaFinding(analysis)},
-        {"Practice", halvesFinding(analysis)},      {"Scatter", dispersionFinding(analysis)},
-        {"Staircases", staircaseFinding(analysis)}, {"Bootstrap", bootstrapFinding(analysis)},
-        {"Screening", screeningFinding(analysis)}};
+    std::vector<Finding> found = {{"Law r = c a", lawFinding(analysis)},
+                                  {"Groups", groupFinding(analysis)},
+                                  {"Published study", publishedFinding(analysis)},
+                                  {"Observers", observerFinding(analysis)},
+                                  {"Audience", audienceFinding(analysis)},
+                                  {"Contrast", contrastFinding(analysis)},
+                                  {"Steepness", betaFinding(analysis)},
+                                  {"Practice", halvesFinding(analysis)},
+                                  {"Scatter", dispersionFinding(analysis)},
+                                  {"Staircases", staircaseFinding(analysis)},
+                                  {"Bootstrap", bootstrapFinding(analysis)},
+                                  {"Screening", screeningFinding(analysis)}};
     std::erase_if(found, [](const Finding& finding) { return finding.text.empty(); });
     for (const FactorTest& factor : analysis.factorTests) {
         found.push_back({"Factor " + factor.factor, factorFinding(factor)});

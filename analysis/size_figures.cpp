@@ -9,6 +9,7 @@
 #include "analysis/figures.h"
 #include "analysis/gnuplot.h"
 #include "analysis/number_text.h"
+#include "analysis/published_slope.h"
 
 namespace analysis {
 namespace {
@@ -133,12 +134,18 @@ class PanelScript {
         const double largest = 1.04 * panel_.sizes.back();
         const double first = logarithmic_ ? panel_.sizes.front() / 1.15 : 0;
         std::ostringstream rows;
-        for (const double a : {first, largest}) rows << a << ' ' << a * kPublishedSlope << '\n';
+        const double criterion = analysis_.options.criterion;
+        for (const double a : {first, largest})
+            rows << a << ' ' << a * publishedAt(criterion) << '\n';
         addData("published", rows.str());
         add(reference("published") + " using 1:2 with lines dt (2,3) lw 1.2 lc rgb '" + kInk +
-            "' title 'published: c = 3.47'");
+            "' title " + quotedForGnuplot("published: c = " + publishedText(criterion)));
         if (panel_.pattern != records::Pattern::stair || largest < 20) return;
-        addData("anchors", "10 25\n20 50\n");
+        std::ostringstream anchors;
+        for (const auto& [a, radius] : {std::pair(10, 25.0), {20, 50.0}}) {
+            anchors << a << ' ' << publishedAt(criterion, radius / a) * a << '\n';
+        }
+        addData("anchors", anchors.str());
         add(reference("anchors") + " using 1:2 with points pt 3 ps 0.9 lw 1.2 lc rgb '" + kInk +
             "' title 'published, stair'");
     }
@@ -228,7 +235,7 @@ std::size_t mostSeries(const std::vector<Panel>& panels) {
 }
 
 std::string criterionText(const SlopeAnalysis& analysis) {
-    return "F* = " + fixedText(analysis.options.criterion, 3);
+    return "F* = " + fixedText(analysis.options.criterion, 4);
 }
 
 }  // namespace
@@ -237,7 +244,8 @@ Figure thresholdAgainstSize(const SlopeAnalysis& analysis) {
     const PanelChoice choice = choosePanels(analysis, true);
     const std::vector<Panel>& panels = choice.panels;
     Range radii = radiiOf(analysis, panels);
-    for (const Panel& panel : panels) radii.hold(1.04 * panel.sizes.back() * kPublishedSlope);
+    const double published = publishedAt(analysis.options.criterion);
+    for (const Panel& panel : panels) radii.hold(1.04 * panel.sizes.back() * published);
     radii = {0, 1.08 * radii.high};
     const std::size_t keyRows = mostSeries(panels) + 2;
     const PanelGrid grid = gridOf(panels.size(), keyRows, analysis.study.pxPerDeg.has_value());
@@ -260,13 +268,14 @@ Figure thresholdAgainstSize(const SlopeAnalysis& analysis) {
     caption += analysis.slope.lawRejected
                    ? "Curves: the fit with a size exponent, since the law r = c a is rejected."
                    : "Lines and bands: the fitted law r = c a with its 95 % interval.";
-    caption += " Dotted: the published worst case, r = 3.47 a";
+    caption +=
+        " Dotted: the published worst case, c = " + publishedText(analysis.options.criterion);
     if (std::any_of(panels.begin(), panels.end(), [](const Panel& panel) {
             return panel.pattern == records::Pattern::stair && panel.sizes.back() * 1.04 >= 20;
         })) {
         caption +=
             "; stars: stairs of 10 px, published as hidden at about 25 px, and of 20 px, at "
-            "50 px or more";
+            "50 px or more (moved with the criterion like c)";
     }
     caption += "." + choice.leftOut;
     return multiplot("threshold_against_size", caption, grid, data, plots);

@@ -8,6 +8,7 @@
 #include "analysis/gnuplot.h"
 #include "analysis/number_text.h"
 #include "analysis/observer_slopes.h"
+#include "analysis/published_slope.h"
 
 namespace analysis {
 namespace {
@@ -30,8 +31,9 @@ struct Line {
 
 // Rows from the top, on a logarithmic axis, with the published slope as a vertical line.
 Figure forest(std::string name, std::string caption, const std::vector<Line>& lines,
-              const std::string& axis, bool named) {
-    double low = kPublishedSlope, high = kPublishedSlope;
+              const std::string& axis, bool named, double criterion) {
+    const double published = publishedAt(criterion);
+    double low = published, high = published;
     std::ostringstream rows[2], second, tics;
     // A summary has a name, which takes more room than a row without one.
     const double summaryRows = named ? 1 : 4;
@@ -60,10 +62,10 @@ Figure forest(std::string name, std::string caption, const std::vector<Line>& li
          << "set xtics " << logTics(low / 1.15, high * 1.15) << '\n'
          << "set ytics (" << tics.str() << ") scale 0\n"
          << "set grid xtics lc rgb '#dddddd' lw 0.6 dt solid\n"
-         << "set arrow 1 from " << kPublishedSlope << ", graph 0 to " << kPublishedSlope
+         << "set arrow 1 from " << published << ", graph 0 to " << published
          << ", graph 1 nohead dt (2,3) lw 1.2 lc rgb '" << kInk << "'\n"
-         << "set label 1 'published 3.47' at " << kPublishedSlope
-         << ", graph 1 center offset 0,0.7 font ',11.5'\n"
+         << "set label 1 " << quotedForGnuplot("published " + publishedText(criterion)) << " at "
+         << published << ", graph 1 center offset 0,0.7 font ',11.5'\n"
          << "set tmargin 2.5\nunset key\nplot ";
     const char* separator = "";
     if (rows[0].tellp() > 0) {
@@ -118,8 +120,12 @@ Figure slopesByGroup(const SlopeAnalysis& analysis) {
         "logarithmic scale; the geometric mean over groups where there are several; the "
         "headline, which is the worst group, its interval accounting for the choice" +
             std::string(people ? ", for the mean and for the 90th-percentile observer." : ".") +
+            (analysis.slope.lawRejected
+                 ? " The law being rejected, the headline is of another fit than the groups: c "
+                   "where it is largest over the sizes, not over all of them."
+                 : "") +
             chosen,
-        lines, "slope c = r/a", true);
+        lines, "slope c = r/a", true, analysis.options.criterion);
 }
 
 std::optional<Figure> slopesByObserver(const SlopeAnalysis& analysis) {
@@ -157,7 +163,8 @@ std::optional<Figure> slopesByObserver(const SlopeAnalysis& analysis) {
     }
     lines.push_back({"mean observer", headline.value, headline.ci95, 1, {}});
     lines.push_back({"90th percentile", headline.value90, headline.ci95For90, 1, {}});
-    return forest("slopes_by_observer", caption, lines, "slope c = r/a in the worst group", named);
+    return forest("slopes_by_observer", caption, lines, "slope c = r/a in the worst group", named,
+                  analysis.options.criterion);
 }
 
 std::optional<Figure> audienceShares(const SlopeAnalysis& analysis) {

@@ -403,8 +403,8 @@ std::optional<Figure> residualsAgainstSize(const SlopeAnalysis& analysis) {
         const double left = panel.sizes.front() / 1.5, right = panel.sizes.back() * 1.5;
         std::ostringstream axes;
         axes << smallAxes(grid, p, panel.title, "artifact size a (px)", "threshold over fit")
-             << "set logscale xy\nset xrange [" << left << ':' << right << "]\nset yrange ["
-             << c(y.low - 0.03) << ':' << c(y.high + 0.03) << "]\nset xtics "
+             << "set ylabel offset 0.5,0\nset logscale xy\nset xrange [" << left << ':' << right
+             << "]\nset yrange [" << c(y.low - 0.03) << ':' << c(y.high + 0.03) << "]\nset xtics "
              << ticsAt(panel.sizes, left, right, true) << "\nset ytics "
              << logTics(c(y.low - 0.03), c(y.high + 0.03))
              << "\nset grid ytics lc rgb '#dddddd' lw 0.6 dt solid\n"

@@ -13,6 +13,7 @@
 #include "analysis/figures.h"
 #include "analysis/findings.h"
 #include "analysis/observer_slopes.h"
+#include "analysis/published_slope.h"
 #include "analysis/result_tables.h"
 #include "analysis/slope_record.h"
 #include "records/file_checksum.h"
@@ -228,6 +229,20 @@ TEST(SlopeReport, HasEveryNumberWithAndWithoutTheExcludedAndOnlyWhereThereAreSom
         EXPECT_THAT(table, HasSubstr(row));
     }
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 + 4 + 1 + 3);
+}
+
+// 3.47 was found at F* = .6465. In a curve of beta 3.5 it is (ln(1 - .6465) / ln(1 - .1))^(1/3.5)
+// times that where one trial in ten is detected.
+TEST(SlopeReport, PutsThePublishedSlopeBesideAtTheCriterionOfTheFit) {
+    EXPECT_EQ(analysis::publishedText(quest::kPaperCriterion), "3.47");
+    EXPECT_EQ(analysis::publishedText(0.6465), "3.47");
+    EXPECT_NEAR(analysis::publishedAt(0.1), 3.47 * std::pow(1.03977 / 0.105361, 1 / 3.5), 1e-4);
+    analysis::AnalysisOptions hidden;
+    hidden.criterion = 0.1;
+    const Report report(smallPlan(), hidden);
+    EXPECT_THAT(report.page(), HasSubstr("Its worst case was c = 6.67 (3.47 at F* = 0.6465)"));
+    EXPECT_THAT(report.file("figures/slopes_by_group.gp"), HasSubstr("set arrow 1 from 6.6"));
+    EXPECT_THAT(report.file("figures/threshold_against_size.gp"), HasSubstr("c = 6.67"));
 }
 
 // The headline and the slopes of the groups come from two fits there, and may lie in any order.
