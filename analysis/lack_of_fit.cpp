@@ -249,9 +249,26 @@ std::optional<Dispersion> dispersionOf(const std::vector<Forecast>& forecasts,
         bin.excess += (one.yes ? 1 : 0) - one.p;
         bin.variance += one.p * (1 - one.p);
     }
+    // A bin that is too small is joined with the next observers' at that strength, or with the next
+    // strength. Leaving it out would choose by the answers: where a staircase goes depends on them.
+    std::vector<Bin> joined;
+    Bin open;
+    for (std::size_t strength = 0; strength < kBins; ++strength) {
+        for (std::size_t i = 0; i < observers; ++i) {
+            const Bin& bin = bins[i * kBins + strength];
+            open.excess += bin.excess;
+            open.variance += bin.variance;
+            if (open.variance < kLeastVariance) continue;
+            joined.push_back(open);
+            open = {};
+        }
+    }
+    if (!joined.empty()) {
+        joined.back().excess += open.excess;
+        joined.back().variance += open.variance;
+    }
     Dispersion result;
-    for (const Bin& bin : bins) {
-        if (bin.variance < kLeastVariance) continue;
+    for (const Bin& bin : joined) {
         result.pearson += bin.excess * bin.excess / bin.variance;
         ++result.degreesOfFreedom;
     }

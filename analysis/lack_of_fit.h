@@ -33,12 +33,12 @@ std::optional<ObserverMean> secondHalfShift(const Study& study, const Model& mod
                                             const RandomObserverFit& fit);
 
 /// Pearson's X^2 = sum over bins of (answers "yes" - expected)^2 / variance; the bins are each
-/// observer's trials by strength. Every answer is forecast from the answers before it: the
+/// observer's trials by strength, small ones joined. Each answer is forecast from those before: the
 /// population as fitted, the observer's thresholds as far as his earlier trials tell them (A. P.
 /// Dawid, "The prequential approach", J. R. Stat. Soc. A 147, 1984). Under the model the errors of
 /// such forecasts add up like independent ones wherever a staircase places the next trial, so that
 /// X^2 is chi-squared with a degree of freedom for every bin; a little less, since the population
-/// was fitted to the same answers (in simulated studies of the published design X^2/df is .9). Not
+/// was fitted to the same answers (in simulated studies of the published design X^2/df is .8). Not
 /// with thresholds fitted to all answers: where a staircase goes depends on the answers, and X^2/df
 /// is then 1.3 where the model holds.
 struct Dispersion {
