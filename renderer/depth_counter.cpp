@@ -11,10 +11,20 @@ constexpr int kSamplesAlongEdge = 128;
 constexpr int kGroupEdge = 16;  // of depths.comp
 constexpr GLuint64 kLongestWaitNs = 10'000'000'000;
 
+Program compiled(const ShaderLibrary& shaders) {
+    return makeComputeProgram(
+        shaders, "passes/depths.comp",
+        {.defines = {{"DEPTH_BINS", std::to_string(kDepthBins)}}, .substitutions = {}});
+}
+
 }  // namespace
 
 DepthCounter::~DepthCounter() {
     forget();
+}
+
+void DepthCounter::reload(const ShaderLibrary& shaders) {
+    if (program_.name() != 0) program_ = compiled(shaders);
 }
 
 void DepthCounter::forget() {
@@ -55,9 +65,7 @@ void DepthCounter::take(bool wait) {
 const DepthHistogram& DepthCounter::count(const ShaderLibrary& shaders, const Texture& map,
                                           int resolution) {
     if (program_.name() == 0) {
-        program_ = makeComputeProgram(
-            shaders, "passes/depths.comp",
-            {.defines = {{"DEPTH_BINS", std::to_string(kDepthBins)}}, .substitutions = {}});
+        program_ = compiled(shaders);
         constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
         counters_ = makeBuffer(nullptr, sizeof(DepthHistogram), access, "depth counters");
         mapped_ = static_cast<const std::uint32_t*>(

@@ -302,6 +302,7 @@ void Renderer::reload(const ShaderLibrary& shaders) {
         lookups[row] = makeLookupProgram(shaders, techniques()[row]);
         mapFilter.prepare(techniques()[row]);
     }
+    depthCounter_.reload(shaders);
     // Nothing below throws.
     shaders_ = std::move(own);
     depthProgram_ = std::move(depth);
