@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 
 #include "demo/demo_stats.h"
 #include "demo/frame_writer.h"
@@ -18,8 +20,8 @@ namespace {
 struct Options {
     std::optional<std::string> scene, technique, resolution, view, path;
     std::vector<std::string> parameters;
-    std::optional<double> radiusM, radiusUv, detection, people;
-    std::optional<int> compareWith;
+    std::optional<double> radiusM, radiusUv, percentile;
+    std::optional<int> compareWith, crossFade;
     std::optional<float> gain, split;
     demo::SlopeOptions slope;
     std::optional<std::filesystem::path> state, shaders;
@@ -34,6 +36,10 @@ struct Options {
 };
 
 constexpr int kHeadlessFrames = 10;
+
+bool inWindow(const Options& options) {
+    return !options.headless && !options.writeFrames;
+}
 
 void listTechniques() {
     for (const renderer::Technique& technique : renderer::techniques()) {
@@ -78,10 +84,32 @@ void setParameters(const std::vector<std::string>& texts, demo::ViewerState& sta
     state.parameters[state.technique] = values;
 }
 
+/// Where the window keeps its state without --state; absent where the environment names no place.
+std::optional<std::filesystem::path> ownStateFile() {
+    const auto folder = [](const char* variable) -> std::optional<std::filesystem::path> {
+        const char* value = std::getenv(variable);
+        if (value == nullptr || *value == '\0') return std::nullopt;
+        return value;
+    };
+    const auto file = std::filesystem::path("stairwell") / "shadow_demo.json";
+    if (const auto state = folder("XDG_STATE_HOME")) return *state / file;
+    if (const auto home = folder("HOME")) return *home / ".local" / "state" / file;
+    return std::nullopt;
+}
+
 demo::ViewerState stateOf(const Options& options) {
     demo::ViewerState state;
     if (options.state && std::filesystem::exists(*options.state))
         state = demo::readViewerState(*options.state);
+    if (const auto own = ownStateFile(); inWindow(options) && !options.state && own &&
+                                         std::filesystem::exists(*own)) {
+        try {
+            state = demo::readViewerState(*own);
+        } catch (const std::runtime_error& error) {
+            // Nobody asked for this file.
+            std::fprintf(stderr, "shadow_demo: note: %s; beginning anew\n", error.what());
+        }
+    }
     state.scene = options.scene.value_or(state.scene);
     state.technique = options.technique.value_or(state.technique);
     renderer::findTechnique(state.technique);  // before its parameters
@@ -94,6 +122,8 @@ demo::ViewerState stateOf(const Options& options) {
     }
     if (options.slope.detection) state.audience.detection = *options.slope.detection;
     if (options.slope.people) state.audience.people = *options.slope.people;
+    state.percentile = options.percentile.value_or(state.percentile);
+    state.crossFadeFrames = options.crossFade.value_or(state.crossFadeFrames);
     if (options.view) state.view = demo::parseView(*options.view, "--view");
     if (options.path) state.path = demo::parsePath(*options.path, "--path");
     state.compareWith = options.compareWith.value_or(state.compareWith);
@@ -222,7 +252,15 @@ void demonstrate(const Options& options) {
         last.frames = kHeadlessFrames;
         report(last, window.info(), viewer, 0);
     }
-    if (options.state) demo::writeViewerState(*options.state, viewer.state());
+    if (options.state) return demo::writeViewerState(*options.state, viewer.state());
+    if (const auto own = ownStateFile()) {
+        try {
+            records::createFolders(own->parent_path());
+            demo::writeViewerState(*own, viewer.state());
+        } catch (const std::runtime_error& error) {
+            std::fprintf(stderr, "shadow_demo: note: the state is not kept: %s\n", error.what());
+        }
+    }
 }
 
 }  // namespace
@@ -247,6 +285,11 @@ int main(int argc, char** argv) {
     app.add_option("--radius-uv", options.radiusUv, "the same as a fraction of the map's extent")
         ->excludes(radius);
     demo::addSlopeOptions(app, options.slope);
+    app.add_option("--percentile", options.percentile,
+                   "share of the points in penumbra whose demand the automatic size meets, 0.5 to "
+                   "1; default: 0.98");
+    app.add_option("--cross-fade", options.crossFade,
+                   "frames over which a change of the automatic size is faded; default: 8");
     app.add_option("--view", options.view,
                    "picture, split, difference, demand, penumbra or texels; default: picture");
     app.add_option("--compare", options.compareWith,
@@ -256,7 +299,8 @@ int main(int argc, char** argv) {
     app.add_option("--path", options.path, "what goes round: still, camera or sun");
     app.add_option("--state", options.state,
                    "JSON file: what the viewer shows, read at the start where it exists and "
-                   "written at the end; other options go before it");
+                   "written at the end; other options go before it; default: none headless, in a "
+                   "window stairwell/shadow_demo.json in XDG_STATE_HOME (~/.local/state)");
     app.add_option("--shaders", options.shaders,
                    "folder to read the shaders from, as renderer/shaders has them; L in the window "
                    "reads them again; default: those built in");

@@ -15,15 +15,23 @@ namespace {
 
 namespace rc = resolution_controller;
 
+rc::Settings sizingOf(const ShadowRun::Settings& settings, const renderer::GlInfo& info) {
+    rc::Settings sizing = settings.sizing;
+    sizing.slope = settings.slope;
+    sizing.driverMaxSize = info.maxResolution;
+    return sizing;
+}
+
 // The controller lowers after 45 frames by default; an orbiting camera is not waited for.
 constexpr int kMostSettlingFrames = 64;
+// Frames from one tile of the detail probe to the next: a tile costs about 4 % of a frame.
+constexpr int kFramesPerTile = 8;
 
-rc::DemandHistogram histogramOf(
-    const std::array<std::uint32_t, renderer::DemandPass::kCounters>& counters) {
-    static_assert(sizeof counters == sizeof(rc::DemandHistogram));
+rc::DemandHistogram histogramOf(const renderer::DemandPass::Reading& reading) {
+    static_assert(sizeof reading.counters == sizeof(rc::DemandHistogram));
     rc::DemandHistogram histogram;
-    std::copy_n(counters.begin(), histogram.counts.size(), histogram.counts.begin());
-    histogram.rejected = counters.back();
+    std::copy_n(reading.counters.begin(), histogram.counts.size(), histogram.counts.begin());
+    histogram.rejected = reading.counters.back();
     return histogram;
 }
 
@@ -58,8 +66,9 @@ ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
                      const Settings& settings)
     : frame_(frame),
       info_(info),
-      controller_({.slope = settings.slope, .driverMaxSize = info.maxResolution}),
-      demand_(frame.shaders(), kDemandGlsl) {
+      controller_(sizingOf(settings, info)),
+      demand_(frame.shaders(), kDemandGlsl),
+      detail_(frame.shaders(), kDemandGlsl) {
     change(settings);
 }
 
@@ -71,11 +80,11 @@ void ShadowRun::change(const Settings& settings) {
     if (settings.resolution) {
         next.resolution = *settings.resolution;
         next.minRadiusUv = 0;
+        next.fadeWeight = 1;
     }
     next.validate(info_);
-    rc::Settings sizing = controller_.settings();
-    sizing.slope = settings.slope;
-    if (const std::string problem = controller_.reconfigure(sizing); !problem.empty())
+    if (const std::string problem = controller_.reconfigure(sizingOf(settings, info_));
+        !problem.empty())
         throw std::invalid_argument(problem);
     settings_ = settings;
     frameSettings_ = next;
@@ -93,15 +102,17 @@ void ShadowRun::step(renderer::PassClock* clock, bool cut) {
 
 void ShadowRun::draw(renderer::PassClock* clock, View view) {
     if (!settings_.resolution) {
-        // What joins renderer and controller: an earlier frame's demand chooses this frame's size.
+        // What joins renderer and controller (docs/engines.md shows these lines): an earlier frame's
+        // demand chooses this frame's size.
         const auto reading = demand_.newest();
-        rc::Frame about{.cameraCut = view != View::goesOn};
+        rc::Frame about{.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels()};
         if (reading && view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
-        const rc::Decision choice = reading
-                                        ? controller_.update(histogramOf(reading->counters), about)
-                                        : controller_.hold(about);
+        const rc::Decision choice = reading ? controller_.update(histogramOf(*reading), about)
+                                            : controller_.hold(about);
         frameSettings_.resolution = choice.size;
         frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
+        frameSettings_.fadeFrom = choice.fadeFromSize;
+        frameSettings_.fadeWeight = static_cast<float>(choice.fadeWeight);
 
         chosen_ = {.resolution = choice.size,
                    .automatic = true,
@@ -109,15 +120,32 @@ void ShadowRun::draw(renderer::PassClock* clock, View view) {
                    .need = choice.need,
                    .minRadiusUv = choice.minRadiusUv,
                    .shareAbove = choice.shareAbove,
-                   .artifactRatio = choice.artifactRatio};
+                   .artifactRatio = choice.artifactRatio,
+                   .detailTexels = about.detailTexels,
+                   .fadeWeight = choice.fadeWeight};
     }
     frame_.render(frameSettings_, clock);
-    if (!settings_.resolution) demand_.submit(frame_, demandRule(), clock);
+    if (!settings_.resolution) ask(clock);
+}
+
+void ShadowRun::ask(renderer::PassClock* clock) {
+    if (clock != nullptr) clock->begin(renderer::Pass::demand);
+    if (detailOf_ != frame_.scene().name) {
+        detail_.forget();
+        detailOf_ = frame_.scene().name;
+    }
+    if (framesToDetail_-- == 0) {
+        detail_.submit(frame_, demandRule());
+        framesToDetail_ = kFramesPerTile - 1;
+    }
+    demand_.submit(frame_, demandRule());
+    if (clock != nullptr) clock->end(renderer::Pass::demand);
 }
 
 int ShadowRun::settle() {
     draw(nullptr, View::another);
     if (settings_.resolution) return 1;
+    detail_.submitAll(frame_, demandRule());
     // The map's first sizes are the way to the right one, not sizes that were shown, so nothing
     // waits to be lowered from them.
     constexpr int kUnseenFrames = 4, kQuietFrames = 4;

@@ -9,6 +9,7 @@
 
 #include "demo/spread.h"
 #include "renderer/demand_pass.h"
+#include "renderer/detail_probe.h"
 #include "renderer/renderer.h"
 #include "resolution_controller/resolution_controller.h"
 
@@ -41,6 +42,8 @@ struct ChosenResolution {
     double shareAbove = 0;   ///< share of the samples that ask for more
     double artifactRatio =
         0;  ///< texel over what the slope allows: above 1, stair-steps are seen more often
+    int detailTexels = 0;    ///< that thin casters ask for; 0: none do
+    double fadeWeight = 1;   ///< below 1 while a change of size is faded
 };
 
 class ShadowRun {
@@ -51,6 +54,9 @@ class ShadowRun {
         double radiusUv = 0;
         ResolutionOption resolution;  ///< absent: automatic
         resolution_controller::Slope slope;
+        /// Of the automatic size, but for slope and driver's limit, which are those above and the
+        /// context's.
+        resolution_controller::Settings sizing = {};
     };
 
     /// Throws std::invalid_argument for settings that renderer or controller refuse.
@@ -88,6 +94,8 @@ class ShadowRun {
     /// nothing was shown yet.
     enum class View { goesOn, another, sameUnseen };
     void draw(renderer::PassClock* clock, View view);
+    /// What the frame's pixels want of the next map.
+    void ask(renderer::PassClock* clock);
 
     renderer::Renderer& frame_;
     renderer::GlInfo info_;
@@ -95,6 +103,9 @@ class ShadowRun {
     resolution_controller::ResolutionController controller_;
     renderer::FrameSettings frameSettings_;
     renderer::DemandPass demand_;
+    renderer::DetailProbe detail_;
+    std::string detailOf_;  // the scene that the probe looked at
+    int framesToDetail_ = 0;
     ChosenResolution chosen_;
 };
 

@@ -36,7 +36,9 @@ ShadowRun::Settings Viewer::settingsOf(const ViewerState& state,
             .parameters = parametersOf(state),
             .radiusUv = softness_.radiusUv,
             .resolution = resolution,
-            .slope = slope_.slope};
+            .slope = slope_.slope,
+            .sizing = {.percentile = state.percentile,
+                       .crossFadeFrames = state.crossFadeFrames}};
 }
 
 void Viewer::show(const ViewerState& state) {

@@ -4,8 +4,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 namespace demo {
 namespace {
@@ -66,9 +68,18 @@ void drawSize(const Viewer& viewer, const ChosenResolution& chosen, ViewerState&
         state.resolution = automatic ? ResolutionOption() : ResolutionOption(chosen.resolution);
     if (state.resolution) chooseSize("Size", *state.resolution);
     ImGui::Text("N = %d: %s", chosen.resolution, chosen.reason.c_str());
-    if (chosen.automatic)
+    if (chosen.automatic) {
         ImGui::TextDisabled("asked for %d; artifact ratio %.2f; %.1f %% ask for more", chosen.need,
                             chosen.artifactRatio, 100 * chosen.shareAbove);
+        if (chosen.detailTexels > 0)
+            ImGui::TextDisabled("thin casters ask for %d", chosen.detailTexels);
+        auto met = static_cast<float>(100 * state.percentile);
+        if (ImGui::SliderFloat("% of points met", &met, 50, 100, "%.1f",
+                               ImGuiSliderFlags_AlwaysClamp))
+            state.percentile = static_cast<double>(met) / 100;
+        ImGui::SliderInt("fade (frames)", &state.crossFadeFrames, 0, 120, "%d",
+                         ImGuiSliderFlags_AlwaysClamp);
+    }
 
     auto softness = static_cast<float>(viewer.softness().radiusM);
     const auto extent = static_cast<float>(viewer.softness().radiusM / viewer.softness().radiusUv);
@@ -147,6 +158,39 @@ void drawLight(const Viewer& viewer, ViewerState& state) {
     state.path = static_cast<Path>(path);
 }
 
+/// A frame of the history as a column of its passes, the longest as high as the plot.
+void drawPasses(const FrameHistory& history, float width) {
+    double longest = 0;
+    for (const FrameHistory::Entry& entry : history.entries)
+        longest = std::max(longest, std::accumulate(entry.passesMs.begin(), entry.passesMs.end(),
+                                                    0.0));
+    if (longest == 0) return;
+    constexpr std::array<ImU32, renderer::kPasses> kColours = {
+        IM_COL32(230, 159, 0, 255), IM_COL32(86, 180, 233, 255),  IM_COL32(0, 158, 115, 255),
+        IM_COL32(213, 94, 0, 255),  IM_COL32(204, 121, 167, 255), IM_COL32(240, 228, 66, 255)};
+    const float height = 4 * ImGui::GetTextLineHeight();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float step = width / static_cast<float>(FrameHistory::kFrames);
+    for (std::size_t i = 0; i < history.entries.size(); ++i) {
+        const float x = corner.x + step * static_cast<float>(i);
+        float y = corner.y + height;
+        for (std::size_t pass = 0; pass < renderer::kPasses; ++pass) {
+            const auto part =
+                static_cast<float>(history.entries[i].passesMs[pass] / longest) * height;
+            draw.AddRectFilled({x, y - part}, {x + step, y}, kColours[pass]);
+            y -= part;
+        }
+    }
+    ImGui::Dummy({width, height});
+    const renderer::PassTimesMs& last = history.entries.back().passesMs;
+    for (const renderer::Pass pass : renderer::kAllPasses) {
+        const auto at = static_cast<std::size_t>(pass);
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kColours[at]), "%-10s %7.2f ms",
+                           std::string(toText(pass)).c_str(), last[at]);
+    }
+}
+
 void drawPlots(const FrameHistory& history, ViewerState& state) {
     if (history.entries.empty()) return;
     std::vector<float> values(history.entries.size());
@@ -164,10 +208,7 @@ void drawPlots(const FrameHistory& history, ViewerState& state) {
     plot("artifact ratio", "%.2f", [](const auto& entry) { return entry.artifactRatio; });
     ImGui::Checkbox("time every pass", &state.timePasses);
     if (!state.timePasses) return;
-    const renderer::PassTimesMs& last = history.entries.back().passesMs;
-    for (const renderer::Pass pass : renderer::kAllPasses)
-        ImGui::Text("%-10s %7.2f ms", std::string(toText(pass)).c_str(),
-                    last[static_cast<std::size_t>(pass)]);
+    drawPasses(history, width);
 }
 
 }  // namespace

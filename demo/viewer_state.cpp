@@ -17,6 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSmallestFixed = 128;  // key 1; each further digit doubles it
+constexpr double kLeastPercentile = 0.5;
+constexpr int kMostFadeFrames = 120;
 constexpr float kLeastGain = 1, kMostGain = 64;
 constexpr float kLeastAngleDeg = 2, kMostAngleDeg = 88;
 constexpr float kLeastDistance = 0.2F, kMostDistance = 6;  // of the scene's own
@@ -121,6 +123,10 @@ std::string validate(const ViewerState& state) {
         return outside("detection", state.audience.detection, 0, 1);
     if (!(state.audience.people >= 0.01 && state.audience.people <= 0.99))
         return outside("people", state.audience.people, 0.01, 0.99);
+    if (!(state.percentile >= kLeastPercentile && state.percentile <= 1))
+        return outside("percentile", state.percentile, kLeastPercentile, 1);
+    if (state.crossFadeFrames < 0 || state.crossFadeFrames > kMostFadeFrames)
+        return outside("cross_fade_frames", state.crossFadeFrames, 0, kMostFadeFrames);
     for (const auto& [field, angle] : {std::pair{"camera_yaw_deg", state.cameraYawDeg},
                                        std::pair{"camera_pitch_deg", state.cameraPitchDeg},
                                        std::pair{"camera_distance_m", state.cameraDistanceM},
@@ -148,6 +154,10 @@ ViewerState readViewerState(const std::filesystem::path& file) {
     state.radiusUv = fields.optionalNumber("radius_uv");
     state.audience.detection = fields.number("detection");
     state.audience.people = fields.number("people");
+    // Files of before these settings have none.
+    state.percentile = fields.optionalNumber("percentile").value_or(state.percentile);
+    state.crossFadeFrames =
+        fields.optionalInteger("cross_fade_frames").value_or(state.crossFadeFrames);
     state.view = fields.word("view", viewWords());
     state.splitAt = static_cast<float>(fields.number("split_at"));
     state.gain = static_cast<float>(fields.number("gain"));
@@ -179,6 +189,8 @@ void writeViewerState(const std::filesystem::path& file, const ViewerState& stat
                        {"radius_uv", orNull(state.radiusUv)},
                        {"detection", state.audience.detection},
                        {"people", state.audience.people},
+                       {"percentile", state.percentile},
+                       {"cross_fade_frames", state.crossFadeFrames},
                        {"view", toText(state.view)},
                        {"split_at", state.splitAt},
                        {"gain", state.gain},

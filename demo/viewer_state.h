@@ -27,6 +27,8 @@ struct ViewerState {
     std::optional<double> radiusM = {};             ///< absent: the scene's own softness
     std::optional<double> radiusUv = {};            ///< instead of radiusM
     resolution_controller::Audience audience = {};  ///< for whom the automatic size is chosen
+    double percentile = 0.98;  ///< share of the points whose demand is met, [0.5, 1]; 1: of all
+    int crossFadeFrames = 8;   ///< over which a change of the automatic size is faded, [0, 120]
 
     renderer::View view = renderer::View::picture;
     float splitAt = 0.5F;  ///< [0, 1]

@@ -2,6 +2,8 @@
 // The files under shaders/filters, compiled as C++, and the passes between them.
 #include "renderer/cpu_filter.h"
 
+#include "renderer/cpu_penumbra.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
@@ -27,6 +29,7 @@ struct CompiledFilter {
     Real (*onDepth)(MapView, ReceiverOf<Real>, ConstantsOf<Real>);
     glm::vec<4, Real> (*mapTexel)(Real, glm::vec<2, Real>, int, ConstantsOf<Real>);
     Real (*onFiltered)(LayeredMapView<Real>, ReceiverOf<Real>, ConstantsOf<Real>);
+    Real (*radius)(MapView, ReceiverOf<Real>, ConstantsOf<Real>);  // null without one of its own
 };
 
 }  // namespace
@@ -164,11 +167,22 @@ Real cpuVisibility(const Technique& technique, const CpuMap<Real>& map,
                : filter.onFiltered(map.view(), receiver, constants);
 }
 
+template <class Real>
+Real cpuPenumbraRadiusUv(const Technique& technique, MapView depths,
+                         const ReceiverOf<Real>& receiver, const ConstantsOf<Real>& constants) {
+    const auto radius = compiled<Real>(technique).radius;
+    return radius == nullptr ? constants.kernel.x : radius(depths, receiver, constants);
+}
+
 template CpuMap<float> cpuMap(const Technique&, MapView, const f32::ShadowConstants&, Storage);
 template CpuMap<double> cpuMap(const Technique&, MapView, const f64::ShadowConstants&, Storage);
 template float cpuVisibility(const Technique&, const CpuMap<float>&, const f32::ShadowReceiver&,
                              const f32::ShadowConstants&);
 template double cpuVisibility(const Technique&, const CpuMap<double>&, const f64::ShadowReceiver&,
                               const f64::ShadowConstants&);
+template float cpuPenumbraRadiusUv(const Technique&, MapView, const f32::ShadowReceiver&,
+                                   const f32::ShadowConstants&);
+template double cpuPenumbraRadiusUv(const Technique&, MapView, const f64::ShadowReceiver&,
+                                    const f64::ShadowConstants&);
 
 }  // namespace renderer

@@ -13,9 +13,12 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
+#include "renderer/counter_ring.h"
 #include "renderer/renderer.h"
 
 namespace renderer {
@@ -32,10 +35,33 @@ struct DemandRule {
     float texelsPerCaster = 0;   ///< texels across the thinnest caster; 0: off
 };
 
+/// Whether the technique's kernel differs from point to point: its file says how wide it is
+/// (cpu_penumbra.h).
+bool hasOwnRadius(const ShaderLibrary& shaders, const Technique& technique);
+
+/// Programs with shared/pixel_demand.glsl: one for the techniques with the same radius everywhere and
+/// one for each that has its own, made when first used.
+class PixelDemandPrograms {
+  public:
+    using Make = std::function<Program(const ShaderOptions&)>;
+    /// Throws what `make` throws.
+    PixelDemandPrograms(const ShaderLibrary& shaders, Make make);
+    /// Uses the one for a frame, with the frame's textures and the rule in place. Throws what `make`
+    /// throws.
+    void use(const Renderer::Outputs& frame, const DemandRule& rule);
+    /// Texture units that pixel_demand.glsl takes, from 0.
+    static constexpr unsigned kTextures = 6;
+
+  private:
+    ShaderLibrary shaders_;
+    Make make_;
+    std::map<const Technique*, Program> programs_;  // null: the same radius everywhere
+};
+
 class DemandPass {
   public:
     static constexpr std::size_t kCounters = 65;  ///< 64 bins and one for what was rejected
-    static constexpr std::size_t kRing = 4;       ///< frames that may be under way
+    static constexpr std::size_t kRing = CounterRing::kFrames;
 
     struct Reading {
         std::array<std::uint32_t, kCounters> counters{};
@@ -48,9 +74,6 @@ class DemandPass {
     /// `demandGlsl`: text that defines StairwellDemandRule, stairwellDemand() and
     /// stairwellDemandCounter(). Throws std::runtime_error where it does not compile.
     DemandPass(const ShaderLibrary& shaders, const std::string& demandGlsl);
-    ~DemandPass();
-    DemandPass(const DemandPass&) = delete;
-    DemandPass& operator=(const DemandPass&) = delete;
 
     /// Counts the demand of the frame that `frame` drew last. Nothing happens before its first
     /// frame. Which pixel of each cell is asked rotates from call to call, so that as many calls as
@@ -61,26 +84,19 @@ class DemandPass {
     /// where there is none. Never waits.
     std::optional<Reading> newest();
 
-    /// Submissions that were overwritten before the GPU had finished them: 0 unless it is more than
-    /// kRing frames behind.
-    int lost() const { return lost_; }
+    int lost() const { return ring_.lost(); }  ///< see CounterRing
 
   private:
-    struct Slot {
-        GLsync fence = nullptr;  // null: nothing under way
-        std::uint64_t submission = 0;
-    };
-    static constexpr std::size_t kSlotBytes = 512;  // of 260: offsets of storage buffers are coarse
-
-    void release(Slot& slot);
-
-    Program program_;
-    Buffer counters_;  // on the GPU
-    Buffer ring_;      // mapped for good
-    const std::byte* mapped_ = nullptr;
-    std::array<Slot, kRing> slots_{};
-    std::uint64_t submissions_ = 0;
-    int lost_ = 0;
+    PixelDemandPrograms programs_;
+    CounterRing ring_;
 };
+
+/// Of a pass that asks one pixel of every cell, in groups of 16 x 8 cells.
+struct SparsePixels {
+    glm::ivec3 cell{0};  ///< x, y of the pixel in its cell, z the cell's edge
+    GLuint groupsX = 0, groupsY = 0;
+};
+/// Calls with turn = 0, 1, 2, ... ask every pixel of a cell in turn.
+SparsePixels sparsePixels(const Renderer& frame, std::uint64_t turn);
 
 }  // namespace renderer

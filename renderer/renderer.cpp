@@ -107,6 +107,10 @@ void FrameSettings::validate(const GlInfo& info) const {
                           "], what the driver allows (" + info.renderer + ")");
     checkUnit("radiusUv", radiusUv);
     checkUnit("minRadiusUv", minRadiusUv);
+    checkUnit("fadeWeight", fadeWeight);
+    if (fadeWeight < 1 && (fadeFrom < 1 || fadeFrom > info.maxResolution))
+        rejectSetting("fadeFrom", std::to_string(fadeFrom),
+                      "in [1, " + std::to_string(info.maxResolution) + "]");
     if (samplesPerPixelEdge < 1 || samplesPerPixelEdge > 16)
         rejectSetting("samplesPerPixelEdge", std::to_string(samplesPerPixelEdge), "in [1, 16]");
 }
@@ -196,13 +200,20 @@ void Renderer::resize(int widthPx, int heightPx) {
     litTarget_ = makeFramebuffer({lit_.name()}, 0, "lit");
     widthPx_ = widthPx;
     heightPx_ = heightPx;
-    hasFrame_ = false;
+    lastTechnique_ = nullptr;
 }
 
 std::optional<Renderer::Outputs> Renderer::outputs() const {
-    if (!hasFrame_) return std::nullopt;
-    return Outputs{positions_.name(), planes_.name(), visibility_.name(), lit_.name(),
-                   lastFrameSoft_};
+    if (lastTechnique_ == nullptr) return std::nullopt;
+    return Outputs{.positions = positions_.name(),
+                   .planes = planes_.name(),
+                   .normals = normals_.name(),
+                   .albedos = albedos_.name(),
+                   .visibility = visibility_.name(),
+                   .lit = lit_.name(),
+                   .depths = map_.name(),
+                   .technique = lastTechnique_,
+                   .hasKernel = lastFrameSoft_};
 }
 
 void Renderer::bindConstants() const {
@@ -331,28 +342,25 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     prepare(technique);
     if (technique.prefilter == Prefilter::none) mapFilter_.release();
     if (!hasLayers(technique)) depthCounter_.forget();  // its count is of an earlier light
-    ensureMap(settings.resolution);
+    const bool fades = settings.fadeWeight < 1;
+    ensureMap(fades ? std::max(settings.resolution, settings.fadeFrom) : settings.resolution);
     lastFrameSoft_ = technique.soft && settings.radiusUv > 0;
-    hasFrame_ = true;
+    lastTechnique_ = &technique;
     updateConstants(settings);
-    {
-        const PassScope scope(Pass::depth, clock);
-        drawDepth();
-    }
-    if (technique.prefilter != Prefilter::none) {
-        const PassScope scope(Pass::prefilter, clock);
-        const ParameterValues parameters =
-            withLayers(technique, settings.parameters.value_or(technique.standardParameters()));
-        mapFilter_.run(technique, parameters, shadow_, map_, reservedEdge_);
-    }
     {
         const PassScope scope(Pass::prepass, clock);
         drawPrepass();
     }
-    {
-        const PassScope scope(Pass::lookup, clock);
-        drawLookup(technique);
+    if (fades) {
+        // First, so that the map of this frame is the one that later passes find. Its passes go
+        // untimed: a clock has one time for each.
+        FrameSettings leaving = settings;
+        leaving.resolution = settings.fadeFrom;
+        updateConstants(leaving);
+        drawShadows(leaving, technique, 1, nullptr);
+        updateConstants(settings);
     }
+    drawShadows(settings, technique, settings.fadeWeight, clock);
     if (settings.lit) {
         const PassScope scope(Pass::lit, clock);
         drawLit();
@@ -360,9 +368,26 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     throwOnGlError();
 }
 
-void Renderer::drawDepth() {
-    const auto edge = static_cast<GLsizei>(shadow_.map.x);
-    glBindFramebuffer(GL_FRAMEBUFFER, mapTarget_.name());
+void Renderer::drawShadows(const FrameSettings& settings, const Technique& technique, float weight,
+                           PassClock* clock) {
+    {
+        const PassScope scope(Pass::depth, clock);
+        drawCasters(mapTarget_, settings.resolution);
+    }
+    if (technique.prefilter != Prefilter::none) {
+        const PassScope scope(Pass::prefilter, clock);
+        const ParameterValues parameters =
+            withLayers(technique, settings.parameters.value_or(technique.standardParameters()));
+        // Both maps of a fade in one texture.
+        mapFilter_.run(technique, parameters, shadow_, map_,
+                       settings.fadeWeight < 1 ? mapEdge_ : reservedEdge_);
+    }
+    const PassScope scope(Pass::lookup, clock);
+    drawLookup(technique, weight);
+}
+
+void Renderer::drawCasters(const Framebuffer& target, int edge) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
     glViewport(0, 0, edge, edge);
     // The sub-rectangle alone: clearing a large texture costs more than drawing a small map.
     glEnable(GL_SCISSOR_TEST);
@@ -419,7 +444,12 @@ void Renderer::drawPrepass() {
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::drawLookup(const Technique& technique) {
+void Renderer::drawLookup(const Technique& technique, float weight) {
+    if (weight < 1) {
+        glEnable(GL_BLEND);
+        glBlendColor(0, 0, 0, weight);
+        glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, visibilityTarget_.name());
     glViewport(0, 0, widthPx_, heightPx_);
     const bool filtered = technique.prefilter != Prefilter::none;
@@ -427,6 +457,7 @@ void Renderer::drawLookup(const Technique& technique) {
     glUseProgram(lookupProgram(technique).name());
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
 }
 
 void Renderer::drawLit() {

@@ -34,6 +34,10 @@ struct FrameSettings {
     float minRadiusUv = 0;        ///< least radius where a texel is larger than a pixel, 0 .. 1
     bool lit = true;              ///< false leaves the lit pass out
     int samplesPerPixelEdge = 1;  ///< viewport pixels along a screen pixel's edge, 1 .. 16
+    /// While a change of N is faded, the visibility is fadeWeight times this map's and the rest that
+    /// of a map with N = fadeFrom, drawn before it. 1: no fade, fadeFrom is not looked at.
+    float fadeWeight = 1;
+    int fadeFrom = 1024;
 
     /// Throws std::invalid_argument that names the field, its value and its range.
     void validate(const GlInfo& info) const;
@@ -77,12 +81,17 @@ class Renderer {
     /// Textures of the last frame, for passes that read it (demand_pass.h, view_pass.h); absent
     /// before the first one.
     struct Outputs {
-        GLuint positions = 0, planes = 0, visibility = 0, lit = 0;
-        bool hasKernel = false;  ///< the technique's, of a radius above 0
+        GLuint positions = 0, planes = 0, normals = 0, albedos = 0, visibility = 0, lit = 0;
+        GLuint depths = 0;                     ///< the shadow map, before any filter
+        const Technique* technique = nullptr;  ///< never null
+        bool hasKernel = false;                ///< the technique's, of a radius above 0
     };
     std::optional<Outputs> outputs() const;
     /// Binds the last frame's uniform blocks for such a pass.
     void bindConstants() const;
+    /// The depths of the casters into the lower left corner of a target, `edge` texels wide, under
+    /// the shadow block that is bound.
+    void drawCasters(const Framebuffer& target, int edge) const;
 
     ByteImage readLit();          ///< sRGB codes, 3 channels
     FloatImage readVisibility();  ///< 1 lit
@@ -112,12 +121,14 @@ class Renderer {
     void updateConstants(const FrameSettings& settings);
     void ensureMap(int resolution);
     const Program& lookupProgram(const Technique& technique);
-    void drawDepth();
+    /// Depth pass, prefilter and lookup, added to the visibility with the weight.
+    void drawShadows(const FrameSettings& settings, const Technique& technique, float weight,
+                     PassClock* clock);
     /// The parameters of a layered technique with the layers that the map asks for, entered into
     /// the shadow block; those of others as they are.
     ParameterValues withLayers(const Technique& technique, const ParameterValues& asked);
     void drawPrepass();
-    void drawLookup(const Technique& technique);
+    void drawLookup(const Technique& technique, float weight);
     void drawLit();
 
     GlInfo info_;
@@ -135,8 +146,8 @@ class Renderer {
     Buffer viewBlock_, shadowBlock_, lookBlock_;
     f32::ViewConstants view_{};
     f32::ShadowConstants shadow_{};
+    const Technique* lastTechnique_ = nullptr;  // null before the first frame
     bool lastFrameSoft_ = false;
-    bool hasFrame_ = false;
 
     Program depthProgram_, prepassProgram_, litProgram_;
     std::vector<Program>

@@ -8,8 +8,7 @@
 namespace renderer {
 namespace {
 
-ShaderOptions viewOptions() {
-    ShaderOptions options{.defines = {}, .substitutions = {{"demand", kDemandInclude}}};
+ShaderOptions withViews(ShaderOptions options) {
     for (std::size_t row = 0; row < kAllViews.size(); ++row) {
         std::string name = "VIEW_" + std::string(toText(kAllViews[row]));
         for (char& letter : name)
@@ -44,8 +43,11 @@ bool compares(View view) {
 }
 
 ViewPass::ViewPass(const ShaderLibrary& shaders, const std::string& demandGlsl)
-    : program_(makeProgram(withDemand(shaders, demandGlsl), "passes/fullscreen.vert",
-                           "passes/view.frag", viewOptions())) {
+    : programs_(shaders,
+                [library = withDemand(shaders, demandGlsl)](const ShaderOptions& options) {
+                    return makeProgram(library, "passes/fullscreen.vert", "passes/view.frag",
+                                       withViews(options));
+                }) {
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
     noGeometry_ = VertexArray(name);
@@ -76,16 +78,13 @@ void ViewPass::draw(const Renderer& frame, const Renderer* other, const ViewSett
     frame.bindConstants();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glViewport(0, 0, widthPx_, heightPx_);
-    GLuint unit = 0;
-    for (const GLuint texture :
-         {own->positions, own->planes, own->visibility, own->lit, theirs->visibility, theirs->lit})
+    programs_.use(*own, settings.rule);
+    GLuint unit = PixelDemandPrograms::kTextures;
+    for (const GLuint texture : {own->lit, theirs->visibility, theirs->lit})
         glBindTextureUnit(unit++, texture);
-    glUseProgram(program_.name());
-    glUniform1ui(0, static_cast<GLuint>(settings.view));
-    glUniform2f(1, std::round(settings.splitAt * static_cast<float>(widthPx_)), settings.gain);
-    const DemandRule& rule = settings.rule;
-    glUniform4f(2, rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster);
-    glUniform2f(3, std::log2(kLeastDemand), std::log2(kMostDemand));
+    glUniform1ui(2, static_cast<GLuint>(settings.view));
+    glUniform2f(3, std::round(settings.splitAt * static_cast<float>(widthPx_)), settings.gain);
+    glUniform2f(4, std::log2(kLeastDemand), std::log2(kMostDemand));
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

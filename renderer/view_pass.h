@@ -52,7 +52,7 @@ class ViewPass {
     ByteImage read() const;  ///< sRGB codes, 3 channels
 
   private:
-    Program program_;
+    PixelDemandPrograms programs_;
     VertexArray noGeometry_;
     Texture target_;
     Framebuffer framebuffer_;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -13,13 +14,16 @@
 #include <random>
 
 #include "demo/demand_glsl.h"
+#include "renderer/cpu_penumbra.h"
 #include "renderer/demand_pass.h"
 #include "renderer/scene.h"
 #include "resolution_controller/slope.h"
+#include "tests/headless_gl.h"
 
 namespace {
 
 namespace rc = resolution_controller;
+using tests::gl;
 
 /// demand.glsl compiled as C++.
 namespace glsl {
@@ -31,11 +35,6 @@ inline uint floatBitsToUint(float value) {
 }
 #include "resolution_controller/demand.glsl"
 }  // namespace glsl
-
-const renderer::GlInfo& gl() {
-    static const renderer::HeadlessContext context;
-    return context.info();
-}
 
 using Counters = std::array<std::uint32_t, renderer::DemandPass::kCounters>;
 
@@ -100,27 +99,62 @@ TEST(DemandFormula, ContrastScalesTheSlopeInGlslAsInCpp) {
     }
 }
 
-/// All pixels of the last frame on the CPU: the shaders' receiver, the controller's formula.
-Counters onTheCpu(renderer::Renderer& frame, bool hasKernel, const rc::DemandRule& rule) {
-    const renderer::FloatImage positions = frame.readPositions(), planes = frame.readPlanes(),
-                               visibility = frame.readVisibility();
-    const auto& shadow = frame.shadowConstants();
+/// A finished frame as the CPU sees it.
+struct Surfaces {
+    renderer::FloatImage positions, planes, visibility, depths;
+    renderer::f32::ShadowConstants shadow;
+
+    explicit Surfaces(renderer::Renderer& frame)
+        : positions(frame.readPositions()),
+          planes(frame.readPlanes()),
+          visibility(frame.readVisibility()),
+          depths(frame.readShadowMap()),
+          shadow(frame.shadowConstants()) {}
+
+    static glm::vec3 three(const renderer::FloatImage& image, int x, int y) {
+        return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
+    }
+    /// Another visibility beside the pixel, on the same surface.
+    bool changesBeside(int x, int y) const {
+        for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+            const int u = x + dx, v = y + dy;
+            if (u < 0 || v < 0 || u >= positions.width || v >= positions.height) continue;
+            const glm::vec3 way = three(positions, u, v) - three(positions, x, y);
+            if (positions.at(u, v, 3) != 0 &&
+                glm::dot(three(planes, u, v), glm::vec3(shadow.towardsLight)) > 0 &&
+                std::abs(glm::dot(way, three(planes, x, y))) <= 0.5F * glm::length(way) &&
+                std::abs(visibility.at(u, v) - visibility.at(x, y)) > renderer::f32::kVisibleShare)
+                return true;
+        }
+        return false;
+    }
+};
+
+/// All pixels of the last frame on the CPU: the shaders' receiver, the technique's radius, the
+/// controller's formula.
+Counters onTheCpu(renderer::Renderer& frame, const renderer::Technique& technique,
+                  const rc::DemandRule& rule) {
+    const Surfaces surfaces(frame);
+    const auto& shadow = surfaces.shadow;
     Counters counters{};
-    for (int y = 0; y < positions.height; ++y) {
-        for (int x = 0; x < positions.width; ++x) {
-            if (positions.at(x, y, 3) == 0) continue;
-            const auto three = [&](const renderer::FloatImage& image) {
-                return glm::vec3(image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2));
-            };
-            const auto receiver = renderer::f32::shadowReceiver(three(positions), three(planes),
-                                                                frame.viewConstants(), shadow);
-            const bool inPenumbra = renderer::f32::inPenumbra(visibility.at(x, y));
-            const bool wide = hasKernel && shadow.kernel.x >= receiver.footprintUv;
+    for (int y = 0; y < surfaces.positions.height; ++y) {
+        for (int x = 0; x < surfaces.positions.width; ++x) {
+            if (surfaces.positions.at(x, y, 3) == 0) continue;
+            const auto receiver = renderer::f32::shadowReceiver(
+                Surfaces::three(surfaces.positions, x, y), Surfaces::three(surfaces.planes, x, y),
+                frame.viewConstants(), shadow);
             const bool onMap = receiver.uv.x >= 0 && receiver.uv.y >= 0 && receiver.uv.x <= 1 &&
                                receiver.uv.y <= 1;
-            if ((wide && !inPenumbra) || !receiver.facesLight || !onMap) continue;
+            if (!receiver.facesLight || !onMap) continue;
+            const float radius = renderer::cpuPenumbraRadiusUv<float>(
+                technique, {surfaces.depths.values.data(), surfaces.depths.width}, receiver,
+                shadow);
+            if (radius < 0) continue;
+            const bool between = renderer::f32::inPenumbra(surfaces.visibility.at(x, y));
+            const bool wide = technique.soft && radius >= receiver.footprintUv;
+            if (!between && (wide || !surfaces.changesBeside(x, y))) continue;
             const int bin = rc::DemandHistogram::binOf(
-                rc::demand(rule, {.radiusUv = shadow.kernel.x, .footprint = receiver.footprintUv}));
+                rc::demand(rule, {.radiusUv = radius, .footprint = receiver.footprintUv}));
             ++counters[bin < 0 ? 64 : static_cast<std::size_t>(bin)];
         }
     }
@@ -153,8 +187,7 @@ TEST(DemandPass, HistogramIsTheCpusOnTheSameSurfaces) {
             for (const float radius : {0.0005F, 0.01F}) {
                 const renderer::Technique& row = renderer::findTechnique(technique);
                 frame.render({.technique = &row, .resolution = 256, .radiusUv = radius});
-                const Counters expected =
-                    onTheCpu(frame, row.soft, {.c = 3.47F, .texelsPerCaster = 0});
+                const Counters expected = onTheCpu(frame, row, {.c = 3.47F, .texelsPerCaster = 0});
                 const Counters found = onTheGpu(pass, frame, {.c = 3.47F, .texelsPerCaster = 0});
                 EXPECT_GT(std::accumulate(expected.begin(), expected.end(), 0U), 50U);
                 EXPECT_EQ(found, expected) << scene.name << ' ' << technique << ' ' << radius;
@@ -162,6 +195,56 @@ TEST(DemandPass, HistogramIsTheCpusOnTheSameSurfaces) {
         }
     }
     EXPECT_EQ(pass.lost(), 0);
+}
+
+// The search's taps come from a sine and a cosine, which are each library's own: a tap on the edge
+// of a texel may fall to its neighbour, and with it a demand on the edge of a bin.
+TEST(DemandPass, CountsTheRadiusThatATechniqueHasAtEachPoint) {
+    gl();
+    renderer::DemandPass pass(renderer::ShaderLibrary::embedded(), demo::kDemandGlsl);
+    for (const renderer::Technique& row : renderer::techniques()) {
+        if (!renderer::hasOwnRadius(renderer::ShaderLibrary::embedded(), row)) continue;
+        std::ptrdiff_t bins = 0;
+        for (const renderer::SceneEntry& scene : renderer::builtInScenes()) {
+            renderer::Renderer frame(gl(), renderer::makeScene(scene.name), 161, 90);
+            frame.render({.technique = &row, .resolution = 256, .radiusUv = 0.01F});
+            const Counters expected = onTheCpu(frame, row, {.c = 3.47F, .texelsPerCaster = 0});
+            const Counters found = onTheGpu(pass, frame, {.c = 3.47F, .texelsPerCaster = 0});
+            const unsigned total = std::accumulate(expected.begin(), expected.end(), 0U);
+            unsigned moved = 0;
+            for (std::size_t i = 0; i < found.size(); ++i)
+                moved += found[i] > expected[i] ? found[i] - expected[i] : expected[i] - found[i];
+            EXPECT_GT(total, 50U);
+            EXPECT_LE(moved, 2 + total / 50) << scene.name << ' ' << row.name << ' ' << total;
+            bins = std::max(bins, std::count_if(expected.begin(), expected.end(),
+                                                [](unsigned count) { return count > 0; }));
+        }
+        EXPECT_GE(bins, 5) << "penumbrae of many widths ask for many sizes";
+    }
+}
+
+// A shadow that is half as deep is asked for with c times (1/2)^e: at an exponent of 2, faint edges
+// ask for much less, and none for more.
+TEST(DemandPass, FaintEdgesAskForLessWithAContrastTerm) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 161, 90);
+    renderer::DemandPass pass(renderer::ShaderLibrary::embedded(), demo::kDemandGlsl);
+    frame.render({.technique = &renderer::findTechnique("pcf_disc"), .radiusUv = 0.01F});
+    const auto meanBin = [&](float exponent) {
+        const Counters counters = onTheGpu(
+            pass, frame, {.c = 3.47F, .pixelBound = 1e6F, .contrastExponent = exponent});
+        double sum = 0, count = 0;
+        for (std::size_t bin = 0; bin < 64; ++bin) {
+            sum += static_cast<double>(bin) * counters[bin];
+            count += counters[bin];
+        }
+        EXPECT_GT(count, 50);
+        return sum / count;
+    };
+    // A quarter of an octave a bin: contrasts of .2 to .7 are 2 to 9 bins at exponent 1.
+    const double without = meanBin(0), with = meanBin(1);
+    EXPECT_LT(with, without - 2);
+    EXPECT_GT(with, without - 10);
+    EXPECT_NEAR(meanBin(2) - without, 2 * (with - without), 1) << "bins round";
 }
 
 TEST(DemandPass, GivesTheNewestFinishedReadingOnce) {

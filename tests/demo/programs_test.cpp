@@ -148,12 +148,28 @@ TEST(ShadowDemo, RunsInAWindow) {
     const std::string json = (folder.path() / "stats.json").string();
     const std::string png = (folder.path() / "frame.png").string();
     const std::string log = (folder.path() / "log").string();
-    const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " STAIRWELL_BIN_DIR
-                                "/shadow_demo --frames 3 --width 96 --height 54 --stats " +
-                                json + " --screenshot " + png + " > " + log + " 2>&1";
-    ASSERT_EQ(std::system(command.c_str()), 0) << records::readWholeFile(log);
+    ::setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
+    const auto shown = [&](const std::string& options) {
+        const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " STAIRWELL_BIN_DIR
+                                    "/shadow_demo --frames 3 --width 96 --height 54 --stats " +
+                                    json + " --screenshot " + png + options + " > " + log +
+                                    " 2>&1";
+        const int status = std::system(command.c_str());
+        EXPECT_EQ(status, 0) << records::readWholeFile(log);
+    };
+    shown("");
     EXPECT_EQ(nlohmann::json::parse(std::ifstream(json)).at("scene"), "yard");
     EXPECT_EQ(cv::imread(png).cols, 96);
+    // What it showed at the end is what it shows at the next start.
+    shown(" --scene planar_occluder --percentile 0.9");
+    shown("");
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(json)).at("scene"), "planar_occluder");
+    const std::filesystem::path own = folder.path() / "stairwell" / "shadow_demo.json";
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(own)).at("percentile"), 0.9);
+    std::ofstream(own) << "{";
+    shown("");
+    EXPECT_THAT(records::readWholeFile(log), HasSubstr("beginning anew"));
+    ::unsetenv("XDG_STATE_HOME");
 }
 
 TEST(ShadowBench, WritesOneReportWithItsTable) {

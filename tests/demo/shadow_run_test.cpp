@@ -5,32 +5,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <glm/gtc/matrix_transform.hpp>
 #include <random>
+#include <sstream>
 #include <vector>
 
 #include "demo/loaded_slope.h"
 #include "renderer/scene.h"
+#include "tests/headless_gl.h"
+#include "tests/thrown_message.h"
 
 namespace {
 
 using demo::ShadowRun;
 using testing::HasSubstr;
-
-const renderer::GlInfo& gl() {
-    static const renderer::HeadlessContext context;
-    return context.info();
-}
-
-template <class Call>
-std::string messageOf(const Call& call) {
-    try {
-        call();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
-}
+using tests::gl;
+using tests::messageOf;
 
 ShadowRun::Settings settingsAt(double radiusUv, double c) {
     ShadowRun::Settings settings;
@@ -46,7 +39,7 @@ TEST(ResolutionOption, IsAutoOrAPositiveWholeNumber) {
     EXPECT_EQ(demo::parseResolution("1", "--resolution"), 1);
     EXPECT_EQ(demo::parseResolution("4096", "--resolution"), 4096);
     for (const char* bad : {"0", "-1", "", "12.5", "1024x", " 7", "99999999999", "Auto"})
-        EXPECT_EQ(messageOf([&] { demo::parseResolution(bad, "--resolution"); }),
+        EXPECT_EQ(messageOf<std::invalid_argument>([&] { demo::parseResolution(bad, "--resolution"); }),
                   "--resolution is \"" + std::string(bad) +
                       "\", must be auto or a whole number of texels from 1");
 }
@@ -59,9 +52,9 @@ TEST(Softness, IsTheScenesOrWhatWasAskedFor) {
     EXPECT_DOUBLE_EQ(demo::chooseSoftness(frame, {}, 0.02).radiusM, 0.02 * extent);
     EXPECT_EQ(demo::chooseSoftness(frame, 0.0, {}).radiusUv, 0);
     for (const double bad : std::vector<double>{NAN, -0.1, 1e9, INFINITY}) {
-        EXPECT_THAT(messageOf([&] { demo::chooseSoftness(frame, bad, {}); }),
+        EXPECT_THAT(messageOf<std::invalid_argument>([&] { demo::chooseSoftness(frame, bad, {}); }),
                     HasSubstr("radius is "));
-        EXPECT_THAT(messageOf([&] { demo::chooseSoftness(frame, {}, bad); }),
+        EXPECT_THAT(messageOf<std::invalid_argument>([&] { demo::chooseSoftness(frame, {}, bad); }),
                     HasSubstr("radius is "));
     }
 }
@@ -139,8 +132,93 @@ TEST(ShadowRun, FixedSizeIsLeftAlone) {
     EXPECT_FALSE(run.chosen().automatic);
     EXPECT_EQ(frame.readShadowMap().width, 77);
     settings.resolution = 1 << 20;
-    EXPECT_THAT(messageOf([&] { ShadowRun(frame, gl(), settings); }),
+    EXPECT_THAT(messageOf<std::invalid_argument>([&] { ShadowRun(frame, gl(), settings); }),
                 HasSubstr("resolution is 1048576"));
+}
+
+// The weights as the controller gives them: neither map alone is shown.
+TEST(ShadowRun, FadesFromOneSizeToTheNext) {
+    renderer::Renderer frame(gl(), renderer::makeScene("planar_occluder"), 320, 180);
+    for (const char* technique : {"pcf_disc", "vsm"}) {
+        ShadowRun::Settings settings = settingsAt(0.03, 3.47);
+        settings.technique = &renderer::findTechnique(technique);
+        settings.parameters = settings.technique->standardParameters();
+        settings.sizing.crossFadeFrames = 4;
+        ShadowRun run(frame, gl(), settings);
+        run.settle();
+        settings.radiusUv = 0.012;  // asks for more
+        run.change(settings);
+        int faded = 0;
+        for (int i = 0; i < 8; ++i) {
+            run.step();
+            const auto shown = frame.readVisibility().values;
+            const renderer::FrameSettings mixed = run.frameSettings();
+            if (mixed.fadeWeight == 1) continue;
+            ++faded;
+            renderer::FrameSettings alone = mixed;
+            alone.fadeWeight = 1;
+            frame.render(alone);
+            const auto now = frame.readVisibility().values;
+            alone.resolution = mixed.fadeFrom;
+            frame.render(alone);
+            const auto before = frame.readVisibility().values;
+            EXPECT_NE(now, before);
+            for (std::size_t p = 0; p < shown.size(); ++p)
+                ASSERT_NEAR(shown[p], std::lerp(before[p], now[p], mixed.fadeWeight), 1e-5)
+                    << "rounding of the blend";
+        }
+        EXPECT_EQ(faded, 4);
+    }
+}
+
+/// Its shadow asks for c / r texels, its width for more.
+renderer::Scene wireOverGround(float widthM) {
+    renderer::Scene scene = renderer::makeScene("planar_occluder");
+    renderer::Mesh wire = renderer::box({-1.6F, 1.0F, -widthM / 2}, {1.6F, 1.0F + widthM, widthM / 2});
+    scene.objects[1].mesh = renderer::transformed(
+        std::move(wire), glm::rotate(glm::mat4(1), glm::radians(25.0F), glm::vec3(0, 1, 0)));
+    return scene;
+}
+
+/// Share of the wire's shadow on the converged map that a frame shows.
+double shadowKept(renderer::Renderer& frame, renderer::FrameSettings settings) {
+    const auto darkness = [&] {
+        double sum = 0;
+        for (const float visibility : frame.readVisibility().values)
+            sum += 1 - static_cast<double>(visibility);
+        return sum;
+    };
+    frame.render(settings);
+    const double kept = darkness();
+    settings.resolution = 8192;
+    frame.render(settings);
+    return kept / darkness();
+}
+
+TEST(ShadowRun, ThinCastersGetTheTexelsTheyTake) {
+    const renderer::Scene scene = wireOverGround(0.006F);
+    renderer::Renderer frame(gl(), scene, 640, 360);
+    ShadowRun::Settings settings = settingsAt(0.02, 3.47);
+    ShadowRun run(frame, gl(), settings);
+    run.settle();
+    const double widthUv = 0.006 / frame.window().extentM;
+    EXPECT_GE(run.chosen().detailTexels, 1 / widthUv) << "or the wire is hit here and there";
+    EXPECT_GE(run.chosen().resolution, 1 / widthUv);
+    EXPECT_LE(run.chosen().resolution, 4096);
+    EXPECT_THAT(run.chosen().reason, HasSubstr("thin"));
+    EXPECT_NEAR(shadowKept(frame, run.frameSettings()), 1, 0.2) << "two texels to a width";
+    // The same without the probe's word.
+    settings.sizing.texelsPerCaster = 0;
+    run.change(settings);
+    run.settle();
+    EXPECT_LT(run.chosen().resolution, 0.5 / widthUv);
+}
+
+TEST(ShadowRun, NothingThinAsksForNoDetail) {
+    renderer::Renderer frame(gl(), renderer::makeScene("planar_occluder"), 640, 360);
+    ShadowRun run(frame, gl(), settingsAt(0.02, 3.47));
+    run.settle();
+    EXPECT_LE(run.chosen().detailTexels, 368) << "the size that the filter asks for";
 }
 
 TEST(ShadowRun, TimesWholeFramesAndPassesApart) {
@@ -167,6 +245,29 @@ TEST(ShadowRun, PictureIsAntialiasedAndLeavesTheFrameAsItWas) {
     EXPECT_EQ(picture.height, 54);
     EXPECT_EQ(frame.widthPx(), 96);
     EXPECT_EQ(frame.readVisibility().values, before);
+}
+
+std::string withoutSpace(const std::string& file) {
+    std::ifstream in(std::string(STAIRWELL_SOURCE_DIR) + "/" + file);
+    std::string text;
+    for (char letter; in.get(letter);)
+        if (std::isspace(static_cast<unsigned char>(letter)) == 0) text += letter;
+    return text;
+}
+
+TEST(ShadowRun, JoinsControllerAndRendererInTheLinesThatEnginesAreShown) {
+    const std::string manual = withoutSpace("docs/engines.md");
+    const std::string code = withoutSpace("demo/shadow_run.cpp");
+    const std::string open = "##Fivelines```cpp";
+    const std::size_t begin = manual.find(open);
+    ASSERT_NE(begin, std::string::npos);
+    const std::size_t end = manual.find("```", begin + open.size());
+    std::istringstream lines(
+        manual.substr(begin + open.size(), end - begin - open.size()));
+    int count = 0;
+    for (std::string line; std::getline(lines, line, ';'); ++count)
+        EXPECT_THAT(code, HasSubstr(line + ";"));
+    EXPECT_EQ(count, 5);
 }
 
 TEST(LoadedSlope, IsThePublishedOneForTheAudienceAskedFor) {

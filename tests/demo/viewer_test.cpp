@@ -8,7 +8,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "tests/headless_gl.h"
 #include "tests/temporary_folder.h"
+#include "tests/thrown_message.h"
 
 namespace {
 
@@ -16,21 +18,8 @@ using demo::Path;
 using demo::ViewerState;
 using renderer::View;
 using testing::HasSubstr;
-
-const renderer::GlInfo& gl() {
-    static const renderer::HeadlessContext context;
-    return context.info();
-}
-
-template <class Call>
-std::string messageOf(const Call& call) {
-    try {
-        call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
-}
+using tests::gl;
+using tests::messageOf;
 
 ViewerState smallState(View view) {
     ViewerState state;

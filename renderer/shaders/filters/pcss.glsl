@@ -14,14 +14,14 @@
 // that share of the depth range before the receiver throws a penumbra of the kernel's radius under the sun, and less
 // under a light that is near; search_taps.
 
-SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
+SHARED_FUNCTION real penumbraRadiusUv(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
     PlaneCompare plane = planeCompare(receiver, shadow, PARAMETER_bias_texels);
     real softness = shadow.kernel.x / PARAMETER_distance;
     real spread = shadow.map.w;
     real receiverSpread = real(1.0) + spread * max(receiver.depth, real(0.0));
     // As far as the nearest possible blocker's penumbra reaches, and never less than the texel itself.
     real search = clamp(softness * receiver.depth / receiverSpread, real(0.5) * shadow.map.y, real(1.0));
-    if (!reachesMap(receiver.uv, search)) return real(1.0);
+    if (!reachesMap(receiver.uv, search)) return real(-1.0);
     int n = int(PARAMETER_search_taps);
     real gaps = real(0.0);
     real depths = real(0.0);
@@ -40,7 +40,13 @@ SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, Sh
             blockers += real(1.0);
         }
     }
-    if (blockers == real(0.0)) return real(1.0);
-    real penumbra = softness * (gaps / blockers) / ((real(1.0) + spread * (depths / blockers)) * receiverSpread);
-    return discVisibility(map, receiver.uv, shownRadiusUv(penumbra, receiver, shadow), shadow, plane);
+    if (blockers == real(0.0)) return real(-1.0);
+    return softness * (gaps / blockers) / ((real(1.0) + spread * (depths / blockers)) * receiverSpread);
+}
+
+SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
+    real radius = penumbraRadiusUv(map, receiver, shadow);
+    if (radius < real(0.0)) return real(1.0);
+    return discVisibility(map, receiver.uv, shownRadiusUv(radius, receiver, shadow), shadow,
+                          planeCompare(receiver, shadow, PARAMETER_bias_texels));
 }

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 // View pass: a finished frame as the viewer shows it, beside another frame of the same view or with what the map's
 // size follows from painted over it. VIEW_... is the row of renderer::View.
-#include "shared/blocks.glsl"
-#include "shared/receiver.glsl"
-#include "demand"
+#include "shared/filters.glsl"
+#include "shared/shading.glsl"
+#include "technique"
+#include "shared/pixel_demand.glsl"
 
-layout(binding = 0) uniform sampler2D positions;
-layout(binding = 1) uniform sampler2D planes;
-layout(binding = 2) uniform sampler2D visibilities;
-layout(binding = 3) uniform sampler2D lit;
-layout(binding = 4) uniform sampler2D otherVisibilities;
-layout(binding = 5) uniform sampler2D otherLit;
+layout(binding = 6) uniform sampler2D lit;
+layout(binding = 7) uniform sampler2D otherVisibilities;
+layout(binding = 8) uniform sampler2D otherLit;
 
-layout(location = 0) uniform uint chosen;
-layout(location = 1) uniform vec2 splitAndGain;  // x of the line in px, gain of the difference
-layout(location = 2) uniform vec4 rule;          // in the order of StairwellDemandRule
-layout(location = 3) uniform vec2 demandRange;   // log2 of the texels at the ends of the colour scale
+layout(location = 2) uniform uint chosen;
+layout(location = 3) uniform vec2 splitAndGain;  // x of the line in px, gain of the difference
+layout(location = 4) uniform vec2 demandRange;   // log2 of the texels at the ends of the colour scale
 
 layout(location = 0) out vec4 outColour;
 
@@ -56,22 +53,20 @@ void main() {
         if (inPenumbra(visibility)) outColour.rgb = scaleColour(visibility);
         return;
     }
-    vec4 position = texelFetch(positions, pixel, 0);
-    if (position.w == 0.0 || chosen == VIEW_PICTURE) return;
-    ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
-    if (chosen == VIEW_TEXELS) {
-        // Borders one pixel wide; where a texel is smaller than two pixels they would cover everything.
-        vec2 texel = receiver.uv * shadow.map.x;
-        float pixelInTexels = receiver.footprintUv * shadow.map.x;
-        vec2 toBorder = abs(texel - round(texel));
-        bool border = min(toBorder.x, toBorder.y) < 0.5 * pixelInTexels;
-        float fade = clamp(2.0 - 4.0 * pixelInTexels, 0.0, 1.0);
-        if (border && receiver.facesLight) outColour.rgb = mix(own, vec3(1.0, 0.85, 0.2), 0.7 * fade);
+    if (chosen == VIEW_DEMAND) {
+        float texels = pixelDemand(pixel);
+        float place = (log2(max(texels, 1.0)) - demandRange.x) / (demandRange.y - demandRange.x);
+        if (texels > 0.0) outColour.rgb = scaleColour(clamp(place, 0.0, 1.0));
         return;
     }
-    if (!inPenumbra(visibility) || !receiver.facesLight) return;  // VIEW_DEMAND
-    StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);
-    float texels = stairwellDemand(asked, shadow.kernel.x, receiver.footprintUv, 1.0, 0.0);
-    float place = (log2(max(texels, 1.0)) - demandRange.x) / (demandRange.y - demandRange.x);
-    outColour.rgb = scaleColour(clamp(place, 0.0, 1.0));
+    vec4 position = texelFetch(positions, pixel, 0);
+    if (position.w == 0.0 || chosen != VIEW_TEXELS) return;
+    ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
+    // Borders one pixel wide; where a texel is smaller than two pixels they would cover everything.
+    vec2 texel = receiver.uv * shadow.map.x;
+    float pixelInTexels = receiver.footprintUv * shadow.map.x;
+    vec2 toBorder = abs(texel - round(texel));
+    bool border = min(toBorder.x, toBorder.y) < 0.5 * pixelInTexels;
+    float fade = clamp(2.0 - 4.0 * pixelInTexels, 0.0, 1.0);
+    if (border && receiver.facesLight) outColour.rgb = mix(own, vec3(1.0, 0.85, 0.2), 0.7 * fade);
 }

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/detail_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
+
+namespace renderer {
+namespace {
+
+// Texels around a tile that its pixels' walks may enter, so that no caster on a border is missed.
+constexpr int kMargin = 3 * DetailProbe::kWidestTexels + 2;
+constexpr int kDrawnEdge = DetailProbe::kTileEdge + 2 * kMargin;
+// Samples that may be tips and corners; a bar as wide as a pixel gives one for every 16 pixels of its
+// length.
+constexpr std::uint32_t kLeastSamples = 3;
+constexpr std::uint32_t kTopShare = 16;  // one in so many is left out
+
+/// A step that visits every tile and is never the next one: what moves through the map is met soon.
+int tileOf(std::uint64_t submission) {
+    constexpr std::uint64_t kStep = 7;
+    static_assert(std::gcd(int{kStep}, DetailProbe::kTiles) == 1);
+    return static_cast<int>(submission % DetailProbe::kTiles * kStep % DetailProbe::kTiles);
+}
+
+}  // namespace
+
+int detailOf(const std::array<std::uint32_t, DemandPass::kCounters>& counters) {
+    constexpr std::size_t kBins = 64;
+    const std::uint32_t total = std::accumulate(counters.begin(), counters.begin() + kBins, 0U);
+    const std::uint32_t above = std::max(kLeastSamples, total / kTopShare);
+    if (total <= above) return 0;
+    std::uint32_t passed = 0;
+    for (std::size_t bin = kBins; bin-- > 0;) {
+        passed += counters[bin];
+        if (passed > above)
+            return static_cast<int>(std::ceil(std::exp2(static_cast<double>(bin + 1) / 4)));
+    }
+    return 0;
+}
+
+DetailProbe::DetailProbe(const ShaderLibrary& shaders, const std::string& demandGlsl)
+    : program_(makeComputeProgram(
+          withDemand(shaders, demandGlsl), "passes/detail.comp",
+          {.defines = {{"MAP_SAMPLER", "sampler2D"},
+                       {"WIDEST_TEXELS", std::to_string(kWidestTexels)}},
+           .substitutions = {{"demand", kDemandInclude}}})),
+      depths_(makeTexture(GL_DEPTH_COMPONENT32F, kDrawnEdge, kDrawnEdge, "detail tile")),
+      target_(makeFramebuffer({}, depths_.name(), "detail tile")),
+      shadowBlock_(makeBuffer(nullptr, sizeof(f32::ShadowConstants), GL_DYNAMIC_STORAGE_BIT,
+                              "detail constants")),
+      ring_(DemandPass::kCounters, "detail") {}
+
+void DetailProbe::submit(const Renderer& frame, const DemandRule& rule) {
+    const auto inputs = frame.outputs();
+    if (!inputs) return;
+    take();
+    const int tile = tileOf(ring_.submissions());
+    const glm::ivec2 lowest = glm::ivec2(tile % kTilesAlong, tile / kTilesAlong) * kTileEdge -
+                              glm::ivec2(kMargin);
+    const double edgeUv = static_cast<double>(kDrawnEdge) / kFineEdge;
+    const glm::dvec2 lowestUv = glm::dvec2(lowest) / static_cast<double>(kFineEdge);
+
+    f32::ShadowConstants shadow = frame.shadowConstants();
+    const glm::dmat4 tileFromMap =
+        glm::scale(glm::dmat4(1), glm::dvec3(1 / edgeUv, 1 / edgeUv, 1)) *
+        glm::translate(glm::dmat4(1), glm::dvec3(-lowestUv, 0));
+    shadow.shadowFromWorld = glm::mat4(tileFromMap * glm::dmat4(shadow.shadowFromWorld));
+    shadow.map = {kFineEdge, 1.0F / kFineEdge, 0, shadow.map.w};
+    frame.bindConstants();
+    glNamedBufferSubData(shadowBlock_.name(), 0, sizeof shadow, &shadow);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
+    frame.drawCasters(target_, kDrawnEdge);
+
+    const SparsePixels pixels = sparsePixels(frame, ring_.submissions() / kTiles);
+    glUseProgram(program_.name());
+    glBindTextureUnit(0, inputs->positions);
+    glBindTextureUnit(1, inputs->planes);
+    glBindTextureUnit(2, depths_.name());
+    glUniform4f(0, rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster);
+    glUniform1ui(1, inputs->hasKernel ? 1 : 0);
+    glUniform3i(2, pixels.cell.x, pixels.cell.y, pixels.cell.z);
+    glUniform4i(3, lowest.x, lowest.y, kMargin, kDrawnEdge);
+    ring_.begin();
+    glDispatchCompute(pixels.groupsX, pixels.groupsY, 1);
+    ring_.end();
+    frame.bindConstants();
+}
+
+void DetailProbe::take() {
+    const auto reading = ring_.newest();
+    if (!reading || reading->submission < forgottenBefore_) return;
+    std::copy_n(reading->counters.begin(), DemandPass::kCounters,
+                tiles_[static_cast<std::size_t>(tileOf(reading->submission))].begin());
+}
+
+void DetailProbe::submitAll(const Renderer& frame, const DemandRule& rule) {
+    for (int tile = 0; tile < kTiles; ++tile) {
+        submit(frame, rule);
+        glFinish();
+    }
+    take();
+}
+
+int DetailProbe::detailTexels() {
+    take();
+    Counters all{};
+    for (const Counters& tile : tiles_)
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] += tile[i];
+    return std::min(detailOf(all), kFineEdge);
+}
+
+void DetailProbe::forget() {
+    tiles_ = {};
+    forgottenBefore_ = ring_.submissions();
+}
+
+}  // namespace renderer

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Thin casters that slip between the texels of a coarse map (Kreuzer, section 7): a map of
+// kFineEdge texels is drawn tile by tile, and the visible pixels under each tile are asked whether
+// what lies before them there is narrow, and how many texels it takes. What a tile said holds until
+// its turn comes again.
+//
+//   DetailProbe probe(ShaderLibrary::embedded(), demandGlsl);
+//   every few frames, after frame.render():
+//       probe.submit(frame, rule);
+//   every frame:
+//       controller.update(histogram, {.detailTexels = probe.detailTexels()});
+//
+// A caster is thin where the run of texels before the receiver's plane is short in one direction,
+// with light on both sides, and at least three times as long in another; one that a kernel of the
+// frame's radius thins out to less than 2 % of the light asks for nothing.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "renderer/demand_pass.h"
+
+namespace renderer {
+
+class DetailProbe {
+  public:
+    static constexpr int kFineEdge = 4096;  ///< of the finer map, texels
+    static constexpr int kTileEdge = 1024;  ///< of the tiles that it is drawn in
+    static constexpr int kTilesAlong = kFineEdge / kTileEdge;
+    static constexpr int kTiles = kTilesAlong * kTilesAlong;
+    /// A caster may be so wide, in texels of the finer map, and still be found thin.
+    static constexpr int kWidestTexels = 10;
+
+    /// See DemandPass for `demandGlsl`. Throws std::runtime_error where it does not compile.
+    DetailProbe(const ShaderLibrary& shaders, const std::string& demandGlsl);
+
+    /// Draws the next tile under the light of the frame that `frame` drew last, and asks that
+    /// frame's pixels. Nothing happens before its first frame.
+    void submit(const Renderer& frame, const DemandRule& rule);
+    /// Every tile at once, and waits for the answers: for a first frame or another scene.
+    void submitAll(const Renderer& frame, const DemandRule& rule);
+
+    /// What the newest readings of all tiles ask for, at most kFineEdge; 0 for nothing. Never waits.
+    int detailTexels();
+
+    /// Another scene: what the tiles said is forgotten.
+    void forget();
+
+  private:
+    void take();
+    using Counters = std::array<std::uint32_t, DemandPass::kCounters>;
+
+    Program program_;
+    Texture depths_;
+    Framebuffer target_;
+    Buffer shadowBlock_;
+    CounterRing ring_;
+    std::array<Counters, kTiles> tiles_{};
+    std::uint64_t forgottenBefore_ = 0;  // submissions whose answers are of no use
+};
+
+/// The texels that the samples ask for, from counters as demand.glsl has them: a few samples at the
+/// top are left out, since the tip of anything is narrow. 0 for too few.
+int detailOf(const std::array<std::uint32_t, DemandPass::kCounters>& counters);
+
+}  // namespace renderer

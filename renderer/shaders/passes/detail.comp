@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Detail pass: visible pixels under one tile of a finer map ask for the texels that the thin casters before them take
+// (detail_probe.h). "demand" is the controller's formula.
+#include "shared/filters.glsl"
+#include "demand"
+
+layout(local_size_x = 16, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler2D positions;
+layout(binding = 1) uniform sampler2D planes;
+layout(binding = 2) uniform sampler2D tileDepths;
+layout(std430, binding = 0) buffer Counters { uint counters[STAIRWELL_DEMAND_COUNTERS]; };
+
+layout(location = 0) uniform vec4 rule;  // in the order of StairwellDemandRule
+layout(location = 1) uniform uint hasKernel;
+layout(location = 2) uniform ivec3 cell;  // x, y of the pixel in its cell, z the cell's edge
+layout(location = 3) uniform ivec4 tile;  // xy texel of the finer map in the tile's corner, z its margin, w its edge
+
+// A caster at least so many times as long as it is wide.
+const int kElongation = 3;
+const int kReach = kElongation * WIDEST_TEXELS;
+// Share of the light that a thin shadow takes away if it is to be kept: chosen by eye.
+const float kShows = 0.02;
+// As the default of the techniques that compare depths.
+const float kBiasTexels = 1.0 / 32.0;
+
+// Before the receiver's plane. `texel` is of the finer map.
+bool blocked(ivec2 texel, PlaneCompare plane) {
+    return texelFetch(tileDepths, texel - tile.xy, 0).x < planeDepth(plane, texel.x, texel.y);
+}
+
+// Texels from one that is blocked to the first that is not; kReach + 1 for none within reach.
+int runTo(ivec2 texel, ivec2 way, PlaneCompare plane) {
+    int run = 1;
+    while (run <= kReach && blocked(texel + run * way, plane)) ++run;
+    return run;
+}
+
+// Width in texels of the thin caster before the texel; 0 for none.
+float thinWidth(ivec2 texel, PlaneCompare plane) {
+    float narrowest = 1e9, longest = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 way = i == 0 ? ivec2(1, 0) : i == 1 ? ivec2(0, 1) : i == 2 ? ivec2(1, 1) : ivec2(1, -1);
+        int ahead = runTo(texel, way, plane), behind = runTo(texel, -way, plane);
+        float width = float(ahead + behind - 1) * length(vec2(way));
+        longest = max(longest, width);
+        if (ahead <= kReach && behind <= kReach) narrowest = min(narrowest, width);
+    }
+    bool thin = narrowest <= float(WIDEST_TEXELS) && longest >= float(kElongation) * narrowest;
+    return thin ? narrowest : 0.0;
+}
+
+// In texels; 0 where there is nothing thin to be seen.
+float pixelDetail(ivec2 pixel) {
+    vec4 position = texelFetch(positions, pixel, 0);
+    if (position.w == 0.0) return 0.0;
+    ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
+    if (!receiver.facesLight) return 0.0;
+    vec2 place = receiver.uv * shadow.map.x;
+    if (!(all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(shadow.map.x))))) return 0.0;
+    ivec2 texel = ivec2(place);
+    ivec2 inTile = texel - tile.xy;
+    if (any(lessThan(inTile, ivec2(tile.z))) || any(greaterThanEqual(inTile, ivec2(tile.w - tile.z)))) return 0.0;
+    PlaneCompare plane = planeCompare(receiver, shadow, kBiasTexels);
+    if (!blocked(texel, plane)) return 0.0;
+    float widthUv = thinWidth(texel, plane) * shadow.map.y;
+    if (widthUv == 0.0) return 0.0;
+    // A line of this width through a disc's middle takes away 2 w / (pi r) of the light.
+    if (hasKernel != 0u && 2.0 * widthUv < 3.14159265 * shadow.kernel.x * kShows) return 0.0;
+    // The formula at a radius that asks for nothing, so that the caster's width alone speaks. A shadow that is wider
+    // than a pixel may be of a caster that is not.
+    bool wide = hasKernel != 0u && shadow.kernel.x >= receiver.footprintUv;
+    return stairwellDemand(StairwellDemandRule(1.0, rule.y, 0.0, rule.w), 1.0, wide ? 0.0 : receiver.footprintUv, 1.0,
+                           widthUv);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * cell.z + cell.xy;
+    if (any(greaterThanEqual(pixel, ivec2(view.viewport.xy)))) return;
+    float texels = pixelDetail(pixel);
+    if (texels > 0.0) atomicAdd(counters[stairwellDemandCounter(texels)], 1u);
+}

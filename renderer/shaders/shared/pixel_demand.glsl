@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What one pixel of a finished frame asks of the shadow map. "demand" is the controller's formula, handed in by who
+// joins the two. No stair-step of the map can show in the sky, on surfaces turned from the light, outside the map and,
+// where the kernel is wider than a pixel, outside penumbrae. A penumbra narrower than a pixel falls between the pixels'
+// samples, so there a pixel counts beside which the same surface has another visibility, as it does without a kernel.
+// Needs filters.glsl, shading.glsl and "technique", which says how wide the kernel is here.
+#include "demand"
+
+layout(binding = 0) uniform sampler2D positions;
+layout(binding = 1) uniform sampler2D planes;
+layout(binding = 2) uniform sampler2D visibilities;
+layout(binding = 3) uniform sampler2D normals;
+layout(binding = 4) uniform sampler2D albedos;
+layout(binding = 5) uniform sampler2D depths;  // the shadow map
+
+layout(location = 0) uniform vec4 rule;  // in the order of StairwellDemandRule
+layout(location = 1) uniform uint hasKernel;
+
+bool onMap(vec2 uv) { return all(greaterThanEqual(uv, vec2(0.0))) && all(lessThanEqual(uv, vec2(1.0))); }
+
+// Another visibility on the surface of the pixel: at a silhouette, and at the border of what faces the light, it
+// changes without a stair-step of the map. The tangent of 30 degrees between the plane and the way to the neighbour
+// lets curved surfaces pass (chosen by eye).
+bool changesBeside(ivec2 pixel, vec3 position, vec3 plane, float visibility) {
+    for (int i = 0; i < 4; ++i) {
+        ivec2 beside = pixel + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+        if (any(lessThan(beside, ivec2(0))) || any(greaterThanEqual(beside, ivec2(view.viewport.xy)))) continue;
+        if (abs(texelFetch(visibilities, beside, 0).x - visibility) <= kVisibleShare) continue;
+        vec4 other = texelFetch(positions, beside, 0);
+        if (other.w == 0.0 || dot(texelFetch(planes, beside, 0).xyz, shadow.towardsLight.xyz) <= 0.0) continue;
+        vec3 way = other.xyz - position;
+        if (abs(dot(way, plane)) <= 0.5 * length(way)) return true;
+    }
+    return false;
+}
+
+// Of the shadow's edge: how far apart full light and full shadow are on the display, black to white being 1.
+float shadowContrast(ivec2 pixel, vec3 position, float gloss) {
+    SurfaceLook surface =
+        SurfaceLook(position, texelFetch(normals, pixel, 0).xyz, texelFetch(albedos, pixel, 0).rgb, gloss);
+    vec3 ray = pixelRay(vec2(pixel) + 0.5);
+    vec3 range = displayCode(surfaceColour(surface, ray, 1.0)) - displayCode(surfaceColour(surface, ray, 0.0));
+    return dot(range, vec3(0.2126, 0.7152, 0.0722));
+}
+
+// In texels; 0 where the formula rejects the radius, -1 where the pixel asks for nothing.
+float pixelDemand(ivec2 pixel) {
+    vec4 position = texelFetch(positions, pixel, 0);
+    if (position.w == 0.0) return -1.0;
+    vec4 plane = texelFetch(planes, pixel, 0);
+    ShadowReceiver receiver = shadowReceiver(position.xyz, plane.xyz, view, shadow);
+    if (!receiver.facesLight || !onMap(receiver.uv)) return -1.0;
+    float visibility = texelFetch(visibilities, pixel, 0).x;
+    bool between = inPenumbra(visibility);
+    if (!between && !changesBeside(pixel, position.xyz, plane.xyz, visibility)) return -1.0;
+    float radius = penumbraRadiusUv(depths, receiver, shadow);
+    if (radius < 0.0) return -1.0;
+    bool wide = hasKernel != 0u && max(radius, shadow.kernel.y) >= receiver.footprintUv;
+    if (wide && !between) return -1.0;
+    StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);
+    float contrast = rule.z == 0.0 ? 1.0 : shadowContrast(pixel, position.xyz, plane.w);
+    return stairwellDemand(asked, radius, receiver.footprintUv, contrast, 0.0);
+}
