@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "demo/sizing_policy.h"
 #include "demo/sweep_table.h"
 #include "demo/tsv_journal.h"
 #include "records/whole_file.h"
