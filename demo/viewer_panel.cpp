@@ -162,8 +162,8 @@ void drawLight(const Viewer& viewer, ViewerState& state) {
 void drawPasses(const FrameHistory& history, float width) {
     double longest = 0;
     for (const FrameHistory::Entry& entry : history.entries)
-        longest = std::max(longest, std::accumulate(entry.passesMs.begin(), entry.passesMs.end(),
-                                                    0.0));
+        longest =
+            std::max(longest, std::accumulate(entry.passesMs.begin(), entry.passesMs.end(), 0.0));
     if (longest == 0) return;
     constexpr std::array<ImU32, renderer::kPasses> kColours = {
         IM_COL32(230, 159, 0, 255), IM_COL32(86, 180, 233, 255),  IM_COL32(0, 158, 115, 255),

@@ -31,10 +31,9 @@ bool hasOwnRadius(const ShaderLibrary& shaders, const Technique& technique) {
 
 PixelDemandPrograms::PixelDemandPrograms(const ShaderLibrary& shaders, Make make)
     : shaders_(shaders), make_(std::move(make)) {
-    programs_.emplace(
-        nullptr, make_({.defines = {{"MAP_SAMPLER", "sampler2D"}},
-                        .substitutions = {{"demand", kDemandInclude},
-                                          {"technique", "shared/one_radius.glsl"}}}));
+    programs_.emplace(nullptr, make_({.defines = {{"MAP_SAMPLER", "sampler2D"}},
+                                      .substitutions = {{"demand", kDemandInclude},
+                                                        {"technique", "shared/one_radius.glsl"}}}));
 }
 
 void PixelDemandPrograms::use(const Renderer::Outputs& frame, const DemandRule& rule) {
@@ -45,9 +44,9 @@ void PixelDemandPrograms::use(const Renderer::Outputs& frame, const DemandRule& 
         options.substitutions.emplace("demand", kDemandInclude);
         program = programs_.emplace(own, make_(options)).first;
     }
-    const std::array<GLuint, kTextures> textures = {frame.positions, frame.planes,
+    const std::array<GLuint, kTextures> textures = {frame.positions,  frame.planes,
                                                     frame.visibility, frame.normals,
-                                                    frame.albedos,   frame.depths};
+                                                    frame.albedos,    frame.depths};
     glBindTextures(0, kTextures, textures.data());
     glUseProgram(program->second.name());
     glUniform4f(0, rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster);

@@ -12,8 +12,8 @@ namespace {
 // Texels around a tile that its pixels' walks may enter, so that no caster on a border is missed.
 constexpr int kMargin = 3 * DetailProbe::kWidestTexels + 2;
 constexpr int kDrawnEdge = DetailProbe::kTileEdge + 2 * kMargin;
-// Samples that may be tips and corners; a bar as wide as a pixel gives one for every 16 pixels of its
-// length.
+// Samples that may be tips and corners; a bar as wide as a pixel gives one for every 16 pixels of
+// its length.
 constexpr std::uint32_t kLeastSamples = 3;
 constexpr std::uint32_t kTopShare = 16;  // one in so many is left out
 
@@ -41,11 +41,10 @@ int detailOf(const std::array<std::uint32_t, DemandPass::kCounters>& counters) {
 }
 
 DetailProbe::DetailProbe(const ShaderLibrary& shaders, const std::string& demandGlsl)
-    : program_(makeComputeProgram(
-          withDemand(shaders, demandGlsl), "passes/detail.comp",
-          {.defines = {{"MAP_SAMPLER", "sampler2D"},
-                       {"WIDEST_TEXELS", std::to_string(kWidestTexels)}},
-           .substitutions = {{"demand", kDemandInclude}}})),
+    : program_(makeComputeProgram(withDemand(shaders, demandGlsl), "passes/detail.comp",
+                                  {.defines = {{"MAP_SAMPLER", "sampler2D"},
+                                               {"WIDEST_TEXELS", std::to_string(kWidestTexels)}},
+                                   .substitutions = {{"demand", kDemandInclude}}})),
       depths_(makeTexture(GL_DEPTH_COMPONENT32F, kDrawnEdge, kDrawnEdge, "detail tile")),
       target_(makeFramebuffer({}, depths_.name(), "detail tile")),
       shadowBlock_(makeBuffer(nullptr, sizeof(f32::ShadowConstants), GL_DYNAMIC_STORAGE_BIT,
@@ -57,8 +56,8 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule) {
     if (!inputs) return;
     take();
     const int tile = tileOf(ring_.submissions());
-    const glm::ivec2 lowest = glm::ivec2(tile % kTilesAlong, tile / kTilesAlong) * kTileEdge -
-                              glm::ivec2(kMargin);
+    const glm::ivec2 lowest =
+        glm::ivec2(tile % kTilesAlong, tile / kTilesAlong) * kTileEdge - glm::ivec2(kMargin);
     const double edgeUv = static_cast<double>(kDrawnEdge) / kFineEdge;
     const glm::dvec2 lowestUv = glm::dvec2(lowest) / static_cast<double>(kFineEdge);
 

@@ -230,8 +230,8 @@ TEST(DemandPass, FaintEdgesAskForLessWithAContrastTerm) {
     renderer::DemandPass pass(renderer::ShaderLibrary::embedded(), demo::kDemandGlsl);
     frame.render({.technique = &renderer::findTechnique("pcf_disc"), .radiusUv = 0.01F});
     const auto meanBin = [&](float exponent) {
-        const Counters counters = onTheGpu(
-            pass, frame, {.c = 3.47F, .pixelBound = 1e6F, .contrastExponent = exponent});
+        const Counters counters =
+            onTheGpu(pass, frame, {.c = 3.47F, .pixelBound = 1e6F, .contrastExponent = exponent});
         double sum = 0, count = 0;
         for (std::size_t bin = 0; bin < 64; ++bin) {
             sum += static_cast<double>(bin) * counters[bin];

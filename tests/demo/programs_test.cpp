@@ -152,8 +152,7 @@ TEST(ShadowDemo, RunsInAWindow) {
     const auto shown = [&](const std::string& options) {
         const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " STAIRWELL_BIN_DIR
                                     "/shadow_demo --frames 3 --width 96 --height 54 --stats " +
-                                    json + " --screenshot " + png + options + " > " + log +
-                                    " 2>&1";
+                                    json + " --screenshot " + png + options + " > " + log + " 2>&1";
         const int status = std::system(command.c_str());
         EXPECT_EQ(status, 0) << records::readWholeFile(log);
     };

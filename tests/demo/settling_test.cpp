@@ -14,8 +14,7 @@ using tests::gl;
 
 // As many frames with data as the rotation of the sparse pixels has: less, and a few pixels of one
 // turn would raise again what the others had lowered.
-constexpr int kLowerAfter =
-    renderer::DemandPass::kCellEdge * renderer::DemandPass::kCellEdge;
+constexpr int kLowerAfter = renderer::DemandPass::kCellEdge * renderer::DemandPass::kCellEdge;
 constexpr int kMostChanges = 4;
 // Each change waits at most kLowerAfter frames; the demand is one frame old.
 constexpr int kSettled = kMostChanges * (kLowerAfter + 1);

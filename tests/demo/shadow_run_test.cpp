@@ -39,9 +39,10 @@ TEST(ResolutionOption, IsAutoOrAPositiveWholeNumber) {
     EXPECT_EQ(demo::parseResolution("1", "--resolution"), 1);
     EXPECT_EQ(demo::parseResolution("4096", "--resolution"), 4096);
     for (const char* bad : {"0", "-1", "", "12.5", "1024x", " 7", "99999999999", "Auto"})
-        EXPECT_EQ(messageOf<std::invalid_argument>([&] { demo::parseResolution(bad, "--resolution"); }),
-                  "--resolution is \"" + std::string(bad) +
-                      "\", must be auto or a whole number of texels from 1");
+        EXPECT_EQ(
+            messageOf<std::invalid_argument>([&] { demo::parseResolution(bad, "--resolution"); }),
+            "--resolution is \"" + std::string(bad) +
+                "\", must be auto or a whole number of texels from 1");
 }
 
 TEST(Softness, IsTheScenesOrWhatWasAskedFor) {
@@ -174,7 +175,8 @@ TEST(ShadowRun, FadesFromOneSizeToTheNext) {
 /// Its shadow asks for c / r texels, its width for more.
 renderer::Scene wireOverGround(float widthM) {
     renderer::Scene scene = renderer::makeScene("planar_occluder");
-    renderer::Mesh wire = renderer::box({-1.6F, 1.0F, -widthM / 2}, {1.6F, 1.0F + widthM, widthM / 2});
+    renderer::Mesh wire =
+        renderer::box({-1.6F, 1.0F, -widthM / 2}, {1.6F, 1.0F + widthM, widthM / 2});
     scene.objects[1].mesh = renderer::transformed(
         std::move(wire), glm::rotate(glm::mat4(1), glm::radians(25.0F), glm::vec3(0, 1, 0)));
     return scene;
@@ -262,8 +264,7 @@ TEST(ShadowRun, JoinsControllerAndRendererInTheLinesThatEnginesAreShown) {
     const std::size_t begin = manual.find(open);
     ASSERT_NE(begin, std::string::npos);
     const std::size_t end = manual.find("```", begin + open.size());
-    std::istringstream lines(
-        manual.substr(begin + open.size(), end - begin - open.size()));
+    std::istringstream lines(manual.substr(begin + open.size(), end - begin - open.size()));
     int count = 0;
     for (std::string line; std::getline(lines, line, ';'); ++count)
         EXPECT_THAT(code, HasSubstr(line + ";"));
