@@ -2,13 +2,13 @@
 // The files under shaders/filters, compiled as C++, and the passes between them.
 #include "renderer/cpu_filter.h"
 
-#include "renderer/cpu_penumbra.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "renderer/cpu_penumbra.h"
 
 namespace renderer {
 namespace {
@@ -21,14 +21,16 @@ std::size_t requiredSlot(std::string_view file, std::string_view name) {
                            std::string(name) + ", which its row in technique.cpp does not have");
 }
 
-/// One file's functions: onDepth of a technique that reads depths, the others of one that reads a
-/// filtered map.
+/// One file's functions: onDepth of a technique that reads depths, the others
+/// of one that reads a filtered map, onSums in place of onFiltered of one that
+/// reads sums.
 template <class Real>
 struct CompiledFilter {
     std::string_view file;
     Real (*onDepth)(MapView, ReceiverOf<Real>, ConstantsOf<Real>);
     glm::vec<4, Real> (*mapTexel)(Real, glm::vec<2, Real>, int, ConstantsOf<Real>);
-    Real (*onFiltered)(LayeredMapView<Real>, ReceiverOf<Real>, ConstantsOf<Real>);
+    Real (*onFiltered)(LayeredMapView<glm::vec<4, Real>>, ReceiverOf<Real>, ConstantsOf<Real>);
+    Real (*onSums)(LayeredMapView<glm::uvec4>, ReceiverOf<Real>, ConstantsOf<Real>);
     Real (*radius)(MapView, ReceiverOf<Real>, ConstantsOf<Real>);  // null without one of its own
 };
 
@@ -79,6 +81,7 @@ int valuesPerTexel(MapFormat format) {
             return 1;
         case MapFormat::rg32f:
         case MapFormat::rg16f:
+        case MapFormat::rg32ui:
             return 2;
         case MapFormat::rgba32f:
         case MapFormat::rgba16f:
@@ -115,6 +118,34 @@ glm::vec<4, Real> stored(const glm::vec<4, Real>& texel, MapFormat format, Stora
     return kept;
 }
 
+/// Adds the levels above the first.
+template <class Real, class Stored>
+void addMips(CpuMap<Real>& map, int levels, const Stored& storedAs) {
+    int edge = map.edge;
+    for (int level = 0; level < levels; ++level) {
+        edge /= 2;
+        for (int y = 0; y < edge; ++y)
+            for (int x = 0; x < edge; ++x) {
+                const glm::ivec2 texel(x, y);
+                if constexpr (std::is_same_v<Real, float>)
+                    map.texels.push_back(storedAs(f32::mipTexel(map.view(), texel, level)));
+                else
+                    map.texels.push_back(storedAs(f64::mipTexel(map.view(), texel, level)));
+            }
+    }
+}
+
+/// Turns the texels into sums.
+template <class Real>
+void sumUp(CpuMap<Real>& map, const ConstantsOf<Real>& constants) {
+    const auto edge = static_cast<std::size_t>(map.edge);
+    for (const auto& texel : map.texels) map.sums.push_back(unitsOf(texel, constants));
+    map.texels.clear();
+    for (std::size_t i = 0; i < map.sums.size(); ++i)
+        if (i % edge != 0) map.sums[i] += map.sums[i - 1];
+    for (std::size_t i = edge; i < map.sums.size(); ++i) map.sums[i] += map.sums[i - edge];
+}
+
 }  // namespace
 
 float roundedToHalf(float value) {
@@ -124,7 +155,7 @@ float roundedToHalf(float value) {
 template <class Real>
 CpuMap<Real> cpuMap(const Technique& technique, MapView depths, const ConstantsOf<Real>& constants,
                     Storage storage) {
-    CpuMap<Real> map{.depths = depths, .edge = 0, .layers = 1, .texels = {}};
+    CpuMap<Real> map{.depths = depths, .edge = 0, .layers = 1, .texels = {}, .sums = {}};
     if (technique.prefilter == Prefilter::none) return map;
     const CompiledFilter<Real>& filter = compiled<Real>(technique);
     map.edge = filteredEdge(constants);
@@ -149,6 +180,16 @@ CpuMap<Real> cpuMap(const Technique& technique, MapView depths, const ConstantsO
         return filter.mapTexel(casterDepth(depths, texel, constants),
                                casterSlope(depths, texel, constants), layer, constants);
     });
+    if (technique.prefilter == Prefilter::mips) {
+        addMips(map, mipLevels(constants), [&](const glm::vec<4, Real>& texel) {
+            return stored(texel, technique.format, storage);
+        });
+        return map;
+    }
+    if (technique.prefilter == Prefilter::sums) {
+        sumUp(map, constants);
+        return map;
+    }
     if (kernelTaps(constants) == 0) return map;
     for (const glm::ivec2& axis : {glm::ivec2(1, 0), glm::ivec2(0, 1)})
         pass([&](const glm::ivec2& texel, int layer) {
@@ -162,9 +203,14 @@ template <class Real>
 Real cpuVisibility(const Technique& technique, const CpuMap<Real>& map,
                    const ReceiverOf<Real>& receiver, const ConstantsOf<Real>& constants) {
     const CompiledFilter<Real>& filter = compiled<Real>(technique);
-    return technique.prefilter == Prefilter::none
-               ? filter.onDepth(map.depths, receiver, constants)
-               : filter.onFiltered(map.view(), receiver, constants);
+    switch (technique.prefilter) {
+        case Prefilter::none:
+            return filter.onDepth(map.depths, receiver, constants);
+        case Prefilter::sums:
+            return filter.onSums(map.summedView(), receiver, constants);
+        default:
+            return filter.onFiltered(map.view(), receiver, constants);
+    }
 }
 
 template <class Real>

@@ -37,9 +37,12 @@ struct CpuMap {
     MapView depths;
     int edge = 0;  ///< of the filtered map, guard band included
     int layers = 1;
-    std::vector<glm::vec<4, Real>> texels;  ///< empty without a prefilter
+    std::vector<glm::vec<4, Real>> texels;  ///< empty without a prefilter; a mip
+                                            ///< chain's levels one after the other
+    std::vector<glm::uvec4> sums;           ///< of Prefilter::sums, in place of texels
 
-    LayeredMapView<Real> view() const { return {texels.data(), edge}; }
+    LayeredMapView<glm::vec<4, Real>> view() const { return {texels.data(), edge}; }
+    LayeredMapView<glm::uvec4> summedView() const { return {sums.data(), edge}; }
 };
 
 template <class Real>

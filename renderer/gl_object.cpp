@@ -27,21 +27,22 @@ void checkComplete(GLuint framebuffer, std::string_view label) {
 }
 
 Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height, int layers,
-                    std::string_view label) {
+                    int levels, std::string_view label) {
     GLuint name = 0;
     glCreateTextures(target, 1, &name);
     Texture texture(name);
     forgetEarlierErrors();
     if (target == GL_TEXTURE_2D_ARRAY)
-        glTextureStorage3D(name, 1, internalFormat, width, height, layers);
+        glTextureStorage3D(name, levels, internalFormat, width, height, layers);
     else
-        glTextureStorage2D(name, 1, internalFormat, width, height);
+        glTextureStorage2D(name, levels, internalFormat, width, height);
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
         throw std::runtime_error(
             "texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
             std::to_string(height) + " texels: the driver refuses it (GL error " +
             std::to_string(error) + (error == GL_OUT_OF_MEMORY ? ", out of memory)" : ")"));
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER,
+                        levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
@@ -52,11 +53,12 @@ Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height,
 }  // namespace
 
 Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label) {
-    return makeStorage(GL_TEXTURE_2D, internalFormat, width, height, 1, label);
+    return makeStorage(GL_TEXTURE_2D, internalFormat, width, height, 1, 1, label);
 }
 
-Texture makeTextureArray(GLenum internalFormat, int edge, int layers, std::string_view label) {
-    return makeStorage(GL_TEXTURE_2D_ARRAY, internalFormat, edge, edge, layers, label);
+Texture makeTextureArray(GLenum internalFormat, int edge, int layers, int levels,
+                         std::string_view label) {
+    return makeStorage(GL_TEXTURE_2D_ARRAY, internalFormat, edge, edge, layers, levels, label);
 }
 
 Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,

@@ -69,8 +69,9 @@ using Query = GlHandle<DeleteQuery>;
 /// shows in GL debuggers. Throws std::runtime_error where the driver has no room for it.
 Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label);
 
-/// The same as a stack of square layers.
-Texture makeTextureArray(GLenum internalFormat, int edge, int layers, std::string_view label);
+/// The same as a stack of square layers, with mip levels for texelFetch.
+Texture makeTextureArray(GLenum internalFormat, int edge, int layers, int levels,
+                         std::string_view label);
 
 /// Colour attachments in order; `depth` may be 0. Throws std::runtime_error when GL calls it
 /// incomplete.

@@ -23,102 +23,194 @@ GLenum glFormat(MapFormat format) {
             return GL_RGBA16F;
         case MapFormat::rgba16:
             return GL_RGBA16;
+        case MapFormat::rg32ui:
+            return GL_RG32UI;
     }
     return GL_NONE;
 }
 
-constexpr std::size_t kPrefilters = 4;
+constexpr GLuint kGroup = 32;  // invocations in a group: GROUP in the passes
+
+/// Texels that an invocation does: STRIP in the passes. For a box, no more than the kernel holds
+/// (map_line.comp).
+constexpr GLuint kStrip = 8;
+constexpr GLuint kShortStrip = 4;
+
+ShaderOptions withStrips(ShaderOptions options, GLuint strip) {
+    options.defines.push_back({"STRIP", std::to_string(strip)});
+    options.defines.push_back({"GROUP", std::to_string(kGroup)});
+    return options;
+}
+
+GLuint parts(GLuint whole, GLuint size) {
+    return (whole + size - 1) / size;
+}
+
+std::size_t area(int edge) {
+    return static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge);
+}
 
 }  // namespace
 
 MapFilter::MapFilter(const ShaderLibrary& shaders)
-    : shaders_(shaders), convertPrograms_(techniques().size()), linePrograms_(kPrefilters) {
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    noGeometry_ = VertexArray(name);
-}
+    : shaders_(shaders), convertPrograms_(techniques().size()) {}
 
 void MapFilter::prepare(const Technique& technique) {
     if (technique.prefilter == Prefilter::none) return;
     Program& convert =
         convertPrograms_.at(static_cast<std::size_t>(&technique - techniques().data()));
     if (convert.name() == 0)
-        convert = makeProgram(shaders_, "passes/fullscreen.vert", "passes/map_texel.frag",
-                              techniqueOptions(technique));
-    if (technique.prefilter == Prefilter::converted) return;
-    Program& line = linePrograms_.at(static_cast<std::size_t>(technique.prefilter));
-    if (line.name() == 0)
-        line = makeProgram(
-            shaders_, "passes/fullscreen.vert", "passes/map_line.frag",
-            {.defines = {{"PREFILTER", std::to_string(static_cast<int>(technique.prefilter))}},
-             .substitutions = {}});
+        convert = makeComputeProgram(shaders_, "passes/map_texel.comp",
+                                     withStrips(techniqueOptions(technique), kStrip));
+    if (technique.prefilter == Prefilter::mips) {
+        if (mipProgram_.name() == 0)
+            mipProgram_ = makeComputeProgram(shaders_, "passes/map_mip.comp", withStrips({}, 1));
+    } else if (technique.prefilter == Prefilter::sums) {
+        if (sumsProgram_.name() == 0)
+            sumsProgram_ = makeComputeProgram(shaders_, "passes/map_sums.comp", withStrips({}, 1));
+    } else if (technique.prefilter != Prefilter::converted) {
+        for (const GLuint strip : {kShortStrip, kStrip}) lineProgram(technique, strip);
+    }
 }
 
-void MapFilter::ensureTextures(MapFormat format, int edge, int layers, bool keepLarger) {
-    const bool fits = keepLarger ? textureEdge_ >= edge : textureEdge_ == edge;
-    if (fits && format == format_ && layers == layers_) return;
-    release();  // two sets at once may be more than there is room for
-    for (std::size_t i = 0; i < textures_.size(); ++i) {
-        const std::string label = i == 0 ? "filtered map" : "filtered rows";
-        textures_[i] = makeTextureArray(glFormat(format), edge, layers, label);
-        for (int layer = 0; layer < layers; ++layer)
-            targets_[i].push_back(makeLayerFramebuffer(textures_[i].name(), layer, label));
+const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip) {
+    Program& line =
+        linePrograms_[{technique.prefilter, technique.format == MapFormat::rg16fSplit, strip}];
+    if (line.name() == 0) {
+        ShaderOptions options =
+            withStrips({.defines = {splitDefine(technique)}, .substitutions = {}}, strip);
+        options.defines.push_back(
+            {"PREFILTER", std::to_string(static_cast<int>(technique.prefilter))});
+        line = makeComputeProgram(shaders_, "passes/map_line.comp", options);
     }
-    format_ = format;
+    return line;
+}
+
+void MapFilter::ensureTextures(const Technique& technique, int edge, int layers, bool keepLarger) {
+    const bool fits = keepLarger ? textureEdge_ >= edge : textureEdge_ == edge;
+    if (fits && technique.format == format_ && technique.prefilter == prefilter_ &&
+        layers == layers_)
+        return;
+    release();  // two sets at once may be more than there is room for
+    const bool chain = technique.prefilter == Prefilter::mips;
+    const int levels = chain ? 1 + static_cast<int>(std::log2(edge)) : 1;
+    textures_[0] =
+        makeTextureArray(glFormat(technique.format), edge, layers, levels, "filtered map");
+    if (!chain)
+        textures_[1] =
+            makeTextureArray(glFormat(technique.format), edge, layers, 1, "filtered rows");
+    format_ = technique.format;
+    prefilter_ = technique.prefilter;
     textureEdge_ = edge;
     layers_ = layers;
 }
 
 void MapFilter::release() {
-    targets_ = {};
     textures_ = {};
     textureEdge_ = 0;
     usedEdge_ = 0;
 }
 
 std::size_t MapFilter::bytes() const {
-    return textures_.size() * static_cast<std::size_t>(layers_) *
-           static_cast<std::size_t>(textureEdge_) * static_cast<std::size_t>(textureEdge_) *
+    std::size_t texels = 0;
+    if (prefilter_ != Prefilter::mips) texels = 2 * area(textureEdge_);
+    for (int edge = textureEdge_; prefilter_ == Prefilter::mips && edge > 0; edge /= 2)
+        texels += area(edge);
+    return texels * static_cast<std::size_t>(layers_) *
            static_cast<std::size_t>(bytesPerTexel(format_));
 }
 
-void MapFilter::draw(GLuint source, std::size_t target) {
-    glViewport(0, 0, usedEdge_, usedEdge_);
+void MapFilter::dispatch(GLuint source, std::size_t target, int targetLevel, GLuint groupsX,
+                         GLuint groupsY) const {
     glBindTextureUnit(0, source);
-    glBindVertexArray(noGeometry_.name());
-    for (std::size_t layer = 0; layer < targets_[target].size(); ++layer) {
-        glBindFramebuffer(GL_FRAMEBUFFER, targets_[target][layer].name());
-        glUniform1i(0, static_cast<GLint>(layer));
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-    }
+    glBindImageTexture(0, textures_[target].name(), targetLevel, GL_TRUE, 0, GL_WRITE_ONLY,
+                       glFormat(format_));
+    glDispatchCompute(groupsX, groupsY, static_cast<GLuint>(layers_));
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 void MapFilter::run(const Technique& technique, const ParameterValues& parameters,
                     const f32::ShadowConstants& shadow, const Texture& depths, int spareN) {
     prepare(technique);
     usedEdge_ = 0;
+    usedLevels_ = 1;
     const int edge = filteredEdge(shadow);
     const int spare = std::max(spareN - static_cast<int>(shadow.map.x), 0);
-    ensureTextures(technique.format, edge + spare, technique.mapLayers(parameters), spareN > 0);
+    ensureTextures(technique, edge + spare, technique.mapLayers(parameters), spareN > 0);
     usedEdge_ = edge;
     glUseProgram(
         convertPrograms_.at(static_cast<std::size_t>(&technique - techniques().data())).name());
-    draw(depths.name(), 0);
-    if (kernelTaps(shadow) == 0) return;
-    glUseProgram(linePrograms_.at(static_cast<std::size_t>(technique.prefilter)).name());
-    glUniform2i(1, 1, 0);
-    draw(textures_[0].name(), 1);
-    glUniform2i(1, 0, 1);
-    draw(textures_[1].name(), 0);
+    const auto lines = static_cast<GLuint>(edge);
+    dispatch(depths.name(), 0, 0, parts(lines, kGroup), parts(lines, kStrip));
+    switch (technique.prefilter) {
+        case Prefilter::none:
+        case Prefilter::converted:
+            break;
+        case Prefilter::mean:
+        case Prefilter::logMean:
+        case Prefilter::minMaxMean:
+            filterLines(technique, shadow);
+            break;
+        case Prefilter::mips:
+            addMips(mipLevels(shadow));
+            break;
+        case Prefilter::sums:
+            sumUp();
+            break;
+    }
 }
 
-FloatImage MapFilter::read() const {
-    FloatImage image(usedEdge_, usedEdge_ * layers_, 4);
+void MapFilter::filterLines(const Technique& technique, const f32::ShadowConstants& shadow) {
+    const int taps = kernelTaps(shadow);
+    if (taps == 0) return;
+    const GLuint strip = 2 * taps < static_cast<int>(kStrip) ? kShortStrip : kStrip;
+    const auto lines = static_cast<GLuint>(usedEdge_);
+    const GLuint strips = parts(lines, strip);
+    glUseProgram(lineProgram(technique, strip).name());
+    glUniform2i(0, 1, 0);
+    dispatch(textures_[0].name(), 1, 0, parts(strips, kGroup), lines);
+    glUniform2i(0, 0, 1);
+    dispatch(textures_[1].name(), 0, 0, parts(lines, kGroup), strips);
+}
+
+void MapFilter::addMips(int levels) {
+    glUseProgram(mipProgram_.name());
+    for (int level = 1; level <= levels; ++level) {
+        const auto edge = static_cast<GLuint>(usedEdge_ >> level);
+        glUniform1i(0, level - 1);
+        dispatch(textures_[0].name(), 0, level, parts(edge, kGroup), edge);
+    }
+    usedLevels_ = levels + 1;
+}
+
+void MapFilter::sumUp() {
+    glUseProgram(sumsProgram_.name());
+    const GLuint groups = parts(static_cast<GLuint>(usedEdge_), kGroup);
+    glUniform2i(0, 1, 0);
+    dispatch(textures_[0].name(), 1, 0, groups, 1);
+    glUniform2i(0, 0, 1);
+    dispatch(textures_[1].name(), 0, 0, groups, 1);
+}
+
+FilteredTexels MapFilter::read() const {
+    FilteredTexels all{.edge = usedEdge_, .texels = {}, .sums = {}};
+    const bool summed = prefilter_ == Prefilter::sums;
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureSubImage(textures_[0].name(), 0, 0, 0, 0, usedEdge_, usedEdge_, layers_, GL_RGBA,
-                         GL_FLOAT, static_cast<GLsizei>(image.values.size() * sizeof(float)),
-                         image.values.data());
-    return image;
+    for (int level = 0; level < usedLevels_; ++level) {
+        const int edge = usedEdge_ >> level;
+        std::vector<glm::vec4> texels(area(edge) * static_cast<std::size_t>(layers_));
+        std::vector<glm::uvec4> sums(summed ? texels.size() : 0);
+        glGetTextureSubImage(
+            textures_[0].name(), level, 0, 0, 0, edge, edge, layers_,
+            summed ? GL_RGBA_INTEGER : GL_RGBA, summed ? GL_UNSIGNED_INT : GL_FLOAT,
+            static_cast<GLsizei>(texels.size() * sizeof(glm::vec4)),
+            summed ? static_cast<void*>(sums.data()) : static_cast<void*>(texels.data()));
+        if (summed)
+            all.sums = std::move(sums);
+        else
+            all.texels.insert(all.texels.end(), texels.begin(), texels.end());
+    }
+    return all;
 }
 
 }  // namespace renderer

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The passes between depth pass and lookup, on the GPU: from depths to what the technique stores,
-// then the prefilter along rows and along columns. cpuMap() does the same on the CPU.
+// The passes between depth pass and lookup, on the GPU, in compute shaders:
+// from depths to what the technique stores, then the prefilter: along rows and
+// along columns, or level by level. cpuMap() does the same on the CPU.
 #pragma once
 
 #include <array>
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include "renderer/gl_object.h"
@@ -13,6 +16,14 @@
 #include "renderer/technique.h"
 
 namespace renderer {
+
+/// A filtered map, guard band included, its layers or mip levels one after the
+/// other: 4 channels, of which the format has some. Of a summed map, sums.
+struct FilteredTexels {
+    int edge = 0;
+    std::vector<glm::vec4> texels;
+    std::vector<glm::uvec4> sums;
+};
 
 class MapFilter {
   public:
@@ -29,27 +40,32 @@ class MapFilter {
              const f32::ShadowConstants& shadow, const Texture& depths, int spareN);
 
     GLuint map() const { return textures_[0].name(); }
-    /// The last map, guard band included, its layers one below the other: 4 channels, of which the
-    /// format has some.
-    FloatImage read() const;
-    std::size_t bytes() const;  ///< of both textures
-    void release();             ///< gives the textures back
+    FilteredTexels read() const;  ///< the last map
+    std::size_t bytes() const;    ///< of all textures
+    void release();               ///< gives the textures back
 
   private:
-    void ensureTextures(MapFormat format, int edge, int layers, bool keepLarger);
-    /// Every layer, with the current program.
-    void draw(GLuint source, std::size_t target);
+    const Program& lineProgram(const Technique& technique, GLuint strip);
+    void ensureTextures(const Technique& technique, int edge, int layers, bool keepLarger);
+    /// Every layer, with the current program; `groups` along x and y.
+    void dispatch(GLuint source, std::size_t target, int targetLevel, GLuint groupsX,
+                  GLuint groupsY) const;
+    void filterLines(const Technique& technique, const f32::ShadowConstants& shadow);
+    void addMips(int levels);
+    void sumUp();
 
     ShaderLibrary shaders_;
-    VertexArray noGeometry_;
     std::vector<Program> convertPrograms_;  // one per row of the technique table, made when used
-    std::vector<Program> linePrograms_;     // one per Prefilter
+    /// By prefilter, whether texels are split, and strip; made when used.
+    std::map<std::tuple<Prefilter, bool, GLuint>, Program> linePrograms_;
+    Program mipProgram_, sumsProgram_;
+    Prefilter prefilter_ = Prefilter::none;
     MapFormat format_ = MapFormat::depth32f;
     int textureEdge_ = 0;
     int layers_ = 1;
     int usedEdge_ = 0;
+    int usedLevels_ = 1;
     std::array<Texture, 2> textures_;
-    std::array<std::vector<Framebuffer>, 2> targets_;  // one per layer
 };
 
 }  // namespace renderer

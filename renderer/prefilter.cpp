@@ -16,20 +16,51 @@ float fraction(float radius) {
 // A lookup in the kernel's reach reads the texel beyond it as well, and one more for rounding.
 constexpr float kGuardBeyondReach = 2;
 
+/// The mip level whose texels are as large as a radius, rounded up.
+float levelsOfKernel(float radiusTexels) {
+    return std::ceil(std::log2(std::max(radiusTexels, 1.0F)));
+}
+
+/// Units that make 1 in a summed map: as many as still let the sum under the
+/// widest box, with the texels that it touches on both sides, be told modulo
+/// 2^32; a power of two, so that float32 scales without rounding, of at most
+/// its 24 bits.
+float summedUnits(float reachTexels) {
+    const double edge = 2.0 * static_cast<double>(reachTexels) + 2;
+    return static_cast<float>(
+        std::exp2(std::min(std::floor(std::log2(0x1p32 / (edge * edge)) - 1e-9), 24.0)));
+}
+
 }  // namespace
 
 glm::vec4 prefilterConstants(const Technique& technique, const ParameterValues& parameters,
                              float radiusUv, float minRadiusUv, int resolution) {
     if (technique.prefilter == Prefilter::none) return glm::vec4(0);
-    const float radius = technique.prefilter == Prefilter::converted
-                             ? 0
-                             : std::max(fraction(radiusUv), fraction(minRadiusUv));
-    const auto gaussian = technique.parameterSlot("gaussian");
+    const auto valueOf = [&](std::string_view name, float absent) {
+        const auto slot = technique.parameterSlot(name);
+        return slot ? parameters[*slot] : absent;
+    };
+    const float least = fraction(minRadiusUv);
+    // Of the widest kernel, where a lookup chooses: a blocker may lie as far
+    // before it as the light.
+    const float radius =
+        technique.prefilter == Prefilter::converted
+            ? 0
+            : std::max(fraction(fraction(radiusUv) / valueOf("distance", 1)), least);
     f32::ShadowConstants constants{};
-    constants.prefilter.x = 0.5F * radius * static_cast<float>(resolution);
-    constants.prefilter.y = gaussian && parameters[*gaussian] != 0 ? 1 : 0;
-    constants.prefilter.z = std::ceil(kernelReach(constants)) + kGuardBeyondReach;
-    constants.prefilter.w = technique.format == MapFormat::rg16fSplit ? 1 : 0;
+    constants.prefilter.x = 0.5F * radius * static_cast<float>(resolution) / valueOf("samples", 1);
+    constants.prefilter.y = valueOf("gaussian", 0) != 0 ? 1 : 0;
+    float reach = std::ceil(kernelReach(constants));
+    if (technique.prefilter == Prefilter::mips) {
+        const float levels = levelsOfKernel(2 * constants.prefilter.x);
+        reach = std::exp2(levels + 1);  // one texel of the coarsest level outside the map
+        // And for pixels that see more of the map than the kernel.
+        constants.prefilter.w =
+            -std::max(levels, std::floor(std::log2(static_cast<float>(resolution))));
+    }
+    if (technique.prefilter == Prefilter::sums) constants.prefilter.w = -summedUnits(reach);
+    if (technique.format == MapFormat::rg16fSplit) constants.prefilter.w = 1;
+    constants.prefilter.z = reach + kGuardBeyondReach;
     return constants.prefilter;
 }
 

@@ -56,8 +56,8 @@ FloatImage Renderer::readShadowMap() {
     return readFloats(map_, GL_DEPTH_COMPONENT, edge, edge, 1);
 }
 
-FloatImage Renderer::readFilteredMap() {
-    return mapFilter_.bytes() > 0 ? mapFilter_.read() : FloatImage();
+FilteredTexels Renderer::readFilteredMap() {
+    return mapFilter_.bytes() > 0 ? mapFilter_.read() : FilteredTexels();
 }
 
 FloatImage Renderer::readPositions() {

@@ -96,8 +96,8 @@ class Renderer {
     ByteImage readLit();          ///< sRGB codes, 3 channels
     FloatImage readVisibility();  ///< 1 lit
     FloatImage readShadowMap();   ///< N x N linear depth
-    FloatImage
-    readFilteredMap();  ///< what the lookup read; empty after a technique without prefilter
+    /// What the lookup read; empty after a technique without prefilter.
+    FilteredTexels readFilteredMap();
     FloatImage readPositions();  ///< 4 channels: relative to the eye; w 0 is sky
     FloatImage readPlanes();     ///< 4 channels: unit normal of the triangle
     unsigned litFramebuffer() const { return litTarget_.name(); }

@@ -20,7 +20,8 @@ std::string preamble(const ShaderOptions& options) {
     text << "#version 450 core\n"
             "#define real float\n#define real2 vec2\n#define real3 vec3\n#define real4 "
             "vec4\n#define real4x4 mat4\n"
-            "#define int2 ivec2\n#define int3 ivec3\n#define SHARED_FUNCTION\n"
+            "#define int2 ivec2\n#define int3 ivec3\n#define uint4 "
+            "uvec4\n#define SHARED_FUNCTION\n"
          << "#define BINDING_VIEW " << kViewBinding << "\n#define BINDING_SHADOW " << kShadowBinding
          << "\n#define BINDING_LOOK " << kLookBinding << "\n#define PATTERN_TILES "
          << unsigned(Pattern::tiles) << "\n#define PATTERN_BANDS " << unsigned(Pattern::bands)
@@ -219,10 +220,19 @@ const std::string& ShaderLibrary::text(std::string_view path,
     return found->second;
 }
 
+ShaderDefine splitDefine(const Technique& technique) {
+    return {"MAP_IS_SPLIT", technique.format == MapFormat::rg16fSplit ? "true" : "false"};
+}
+
 ShaderOptions techniqueOptions(const Technique& technique) {
-    const bool filtered = technique.prefilter != Prefilter::none;
+    const bool summed = technique.prefilter == Prefilter::sums;
+    const std::string sampler = technique.prefilter == Prefilter::none ? "sampler2D"
+                                : summed                               ? "usampler2DArray"
+                                                                       : "sampler2DArray";
     ShaderOptions options{.defines = {{"TECHNIQUE", std::string(technique.name)},
-                                      {"MAP_SAMPLER", filtered ? "sampler2DArray" : "sampler2D"}},
+                                      {"MAP_SAMPLER", sampler},
+                                      {"MAP_IS_SUMMED", summed ? "1" : "0"},
+                                      splitDefine(technique)},
                           .substitutions = {{"technique", technique.shaderFile()}}};
     for (std::size_t i = 0; i < technique.parameters.size(); ++i)
         options.defines.push_back(

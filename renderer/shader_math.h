@@ -7,10 +7,11 @@
 //   namespace renderer::f32, renderer::f64: ViewConstants, ShadowConstants, ShadowReceiver,
 //   shadowReceiver(), discCoverage4(), ... with the meaning given in the .glsl files.
 //
-// A file of this subset may use: real, real2..4, real4x4, int2, int3; SHARED_FUNCTION before each
-// function; real(x) around every literal that meets a real; sampler2D with texelFetch and
-// textureGather, sampler2DArray with texelFetch; the GLSL functions named below. It may not use
-// swizzles of more than one component, out parameters, #include.
+// A file of this subset may use: real, real2..4, real4x4, int2, int3;
+// SHARED_FUNCTION before each function; real(x) around every literal that meets
+// a real; sampler2D with texelFetch and textureGather, sampler2DArray and
+// usampler2DArray with texelFetch; the GLSL functions named below. It may not
+// use swizzles of more than one component, out parameters, #include.
 #pragma once
 
 #include <array>
@@ -31,16 +32,22 @@ struct MapView {
     }
 };
 
-/// A stack of square layers of four values per texel, as a sampler. Does not own the texels.
-template <class Real>
+/// A stack of square layers of four values per texel, as a sampler. Does not
+/// own the texels. A mip chain has one layer, and its levels lie one after the
+/// other.
+template <class Value>
 struct LayeredMapView {
-    const glm::vec<4, Real>* texels = nullptr;
+    const Value* texels = nullptr;
     int edge = 0;
 };
 
-template <class Real>
-glm::vec<4, Real> texelFetch(const LayeredMapView<Real>& map, const glm::ivec3& texel, int) {
+template <class Value>
+Value texelFetch(LayeredMapView<Value> map, const glm::ivec3& texel, int level) {
     const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    for (; level > 0; --level) {
+        map.texels += at(map.edge) * at(map.edge);
+        map.edge /= 2;
+    }
     return map.texels[(at(texel.z) * at(map.edge) + at(texel.y)) * at(map.edge) + at(texel.x)];
 }
 
@@ -73,8 +80,10 @@ glm::vec4 textureGather(const MapView& map, const glm::vec<2, Real>& coordinate)
     using real4x4 = glm::mat<4, 4, real>;                                                       \
     using int2 = glm::ivec2;                                                                    \
     using int3 = glm::ivec3;                                                                    \
+    using uint4 = glm::uvec4;                                                                   \
     using sampler2D = MapView;                                                                  \
-    using sampler2DArray = LayeredMapView<real>;                                                \
+    using sampler2DArray = LayeredMapView<real4>;                                               \
+    using usampler2DArray = LayeredMapView<uint4>;                                              \
     using glm::abs, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::dot, glm::exp, glm::exp2, \
         glm::floor, glm::length, glm::lessThan;                                                 \
     using glm::log, glm::log2, glm::max, glm::min, glm::mix, glm::normalize, glm::sin, glm::sqrt;
@@ -95,6 +104,9 @@ STAIRWELL_SHADER_LANGUAGE(float)
 #include "renderer/shaders/shared/exponential_warp.glsl"
 #include "renderer/shaders/shared/hamburger.glsl"
 #include "renderer/shaders/shared/depth_layers.glsl"
+#include "renderer/shaders/shared/summed_map.glsl"
+#include "renderer/shaders/shared/mip_map.glsl"
+#include "renderer/shaders/shared/penumbra_estimate.glsl"
 }  // namespace f32
 
 namespace f64 {
@@ -111,6 +123,9 @@ STAIRWELL_SHADER_LANGUAGE(double)
 #include "renderer/shaders/shared/exponential_warp.glsl"
 #include "renderer/shaders/shared/hamburger.glsl"
 #include "renderer/shaders/shared/depth_layers.glsl"
+#include "renderer/shaders/shared/summed_map.glsl"
+#include "renderer/shaders/shared/mip_map.glsl"
+#include "renderer/shaders/shared/penumbra_estimate.glsl"
 }  // namespace f64
 // clang-format on
 

@@ -82,14 +82,17 @@ constexpr Property kTapsDoNot[] = {Property::errorFallsWithN};
 constexpr std::string_view kTapsDoNotBecause =
     "a fixed number of samples does not see more of a finer map";
 
+constexpr TechniqueParameter kPenumbraDistance{
+    .name = "distance",
+    .meaning =
+        "share of the depth range between a blocker and the receiver at which the penumbra "
+        "has the kernel's radius",
+    .low = 0.001F,
+    .high = 10,
+    .standard = 0.25F};
 constexpr TechniqueParameter kPcssParameters[] = {
     kBiasTexels,
-    {.name = "distance",
-     .meaning = "share of the depth range between a blocker and the receiver at which the penumbra "
-                "has the kernel's radius",
-     .low = 0.001F,
-     .high = 10,
-     .standard = 0.25F},
+    kPenumbraDistance,
     {.name = "search_taps",
      .meaning = "texels that the search for blockers reads",
      .low = 1,
@@ -97,6 +100,7 @@ constexpr TechniqueParameter kPcssParameters[] = {
      .standard = 32,
      .whole = true}};
 constexpr Property kPcssDoesNot[] = {Property::monotoneInDepth};
+constexpr std::string_view kPcssDoesNotBecause = "farther receivers have wider penumbrae";
 
 constexpr TechniqueParameter kGradientParameters[] = {
     {.name = "bias",
@@ -159,9 +163,53 @@ constexpr VarianceParameters varianceParameters(float depthBias, float leastVari
               .high = 1,
               .standard = 1}}};
 }
+constexpr TechniqueParameter kLeastVariance = varianceParameters(0, 1e-6F).all[3];
+constexpr TechniqueParameter kBleeding = varianceParameters(0, 1e-6F).all[4];
+constexpr TechniqueParameter kDerivative = varianceParameters(0, 1e-6F).all[5];
 constexpr VarianceParameters kVariance32 = varianceParameters(0, 1e-6F);
 constexpr VarianceParameters kVariance16 = varianceParameters(kHalfRounding, 1.0F / 2048);
 constexpr VarianceParameters kVarianceSplit = varianceParameters(kSplitRounding, 1.0F / (1 << 19));
+
+constexpr TechniqueParameter kSampledVarianceParameters[] = {
+    kBiasTexels,
+    kGaussian,
+    kLeastVariance,
+    kBleeding,
+    kDerivative,
+    {.name = "samples",
+     .meaning = "smaller kernels along the kernel's edge",
+     .low = 1,
+     .high = 8,
+     .standard = 3,
+     .whole = true}};
+/// A box of any width over texels of even depth: on a slope its mean is off by
+/// up to f (1 - f) / (2 w) of a texel, w its width and f what w has beyond a
+/// whole number. A mip level's mean is exact.
+constexpr TechniqueParameter kBoxBiasTexels{.name = kBiasTexels.name,
+                                            .meaning = kBiasTexels.meaning,
+                                            .low = kBiasTexels.low,
+                                            .high = kBiasTexels.high,
+                                            .standard = 1.0F / 8};
+constexpr TechniqueParameter kSummedVarianceParameters[] = {kBoxBiasTexels, kLeastVariance,
+                                                            kBleeding, kDerivative};
+constexpr TechniqueParameter kMipVarianceParameters[] = {
+    kBiasTexels,
+    kLeastVariance,
+    kBleeding,
+    kDerivative,
+    {.name = "anisotropy",
+     .meaning = "most probes along the longer side of a pixel's footprint; 1 "
+                "takes its level there",
+     .low = 1,
+     .high = 16,
+     .standard = 16,
+     .whole = true}};
+constexpr Property kMipsDoNot[] = {Property::errorFallsWithN};
+constexpr std::string_view kMipsDoNotBecause =
+    "the level of a kernel has texels as large as the kernel, whatever N";
+constexpr TechniqueParameter kVariancePenumbraParameters[] = {
+    kBoxBiasTexels, kLeastVariance, kBleeding, kDerivative, kPenumbraDistance};
+constexpr Property kMipPenumbraDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
 
 constexpr TechniqueParameter kExponentialParameters[] = {
     kBiasTexels,
@@ -295,6 +343,8 @@ constexpr std::string_view kPowerDoesNotBecause =
 constexpr std::string_view kPcfPaper =
     "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps";
 constexpr std::string_view kVariancePaper = "Donnelly, Lauritzen 2006, Variance shadow maps";
+constexpr std::string_view kVariancePenumbraPaper =
+    "Yang, Dong, Feng, Seidel, Kautz 2010, Variance soft shadow mapping";
 constexpr std::string_view kWarpedPaper = "Lauritzen, McCool 2008, Layered variance shadow maps";
 constexpr std::string_view kMomentPaper = "Peters, Klein 2015, Moment shadow mapping";
 constexpr std::string_view kPowerPaper =
@@ -337,7 +387,7 @@ constexpr Technique kTechniques[] = {
      .paper = "Fernando 2005, Percentage-closer soft shadows",
      .parameters = kPcssParameters,
      .doNotHold = kPcssDoesNot,
-     .doNotHoldBecause = "farther receivers have wider penumbrae",
+     .doNotHoldBecause = kPcssDoesNotBecause,
      .cost = "search_taps texels a pixel and where blockers are pi (r/a)^2 of the local radius"},
     {.name = "gsm",
      .title = "Gradient PCF",
@@ -380,6 +430,55 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::mean,
      .parameters = kVarianceSplit.all,
      .cost = kSeparableCost},
+    {.name = "vsm_samples",
+     .title = "Variance, several samples",
+     .paper = "Akenine-Moeller, Haines, Hoffman, Real-Time Rendering, Filtered "
+              "shadow maps",
+     .format = MapFormat::rg32f,
+     .prefilter = Prefilter::mean,
+     .parameters = kSampledVarianceParameters,
+     .cost = "4 texels a sample; the prefilter that of a kernel as many times "
+             "narrower"},
+    {.name = "vsm_mip",
+     .title = "Variance, mip chain",
+     .paper = kVariancePaper,
+     .format = MapFormat::rg32f,
+     .prefilter = Prefilter::mips,
+     .parameters = kMipVarianceParameters,
+     .doNotHold = kMipsDoNot,
+     .doNotHoldBecause = kMipsDoNotBecause,
+     .cost = "8 texels a probe; the prefilter 4/3 texels a texel, whatever the "
+             "kernel"},
+    {.name = "vsm_sat",
+     .title = "Variance, summed-area table",
+     .paper = "Lauritzen 2007, Summed-area variance shadow maps",
+     .format = MapFormat::rg32ui,
+     .prefilter = Prefilter::sums,
+     .parameters = kSummedVarianceParameters,
+     .cost = "16 texels a pixel; the prefilter 2 texels a texel, whatever the "
+             "kernel"},
+    {.name = "pcss_sat",
+     .title = "PCSS, variance by sums",
+     .paper = kVariancePenumbraPaper,
+     .format = MapFormat::rg32ui,
+     .prefilter = Prefilter::sums,
+     .parameters = kVariancePenumbraParameters,
+     .doNotHold = kPcssDoesNot,
+     .doNotHoldBecause = kPcssDoesNotBecause,
+     .cost = "32 texels a pixel; the prefilter 2 texels a texel, whatever the "
+             "kernel"},
+    {.name = "pcss_mip",
+     .title = "PCSS, variance by mips",
+     .paper = kVariancePenumbraPaper,
+     .format = MapFormat::rg32f,
+     .prefilter = Prefilter::mips,
+     .parameters = kVariancePenumbraParameters,
+     .doNotHold = kMipPenumbraDoesNot,
+     .doNotHoldBecause = "farther receivers have wider penumbrae; and the "
+                         "level of a kernel has "
+                         "texels as large as the kernel, whatever N",
+     .cost = "16 texels a pixel; the prefilter 4/3 texels a texel, whatever "
+             "the kernel"},
     {.name = "esm",
      .title = "Exponential",
      .paper = "Annen, Mertens, Seidel, Flerackers, Kautz 2008, Exponential shadow maps",
@@ -481,6 +580,8 @@ std::string_view toText(MapFormat format) {
             return "2 x two 16-bit floats";
         case MapFormat::rgba16:
             return "4 x 16-bit fixed point";
+        case MapFormat::rg32ui:
+            return "2 x 32-bit integer";
     }
     return "unknown format";
 }
@@ -495,6 +596,7 @@ int bytesPerTexel(MapFormat format) {
         case MapFormat::rgba16f:
         case MapFormat::rg16fSplit:
         case MapFormat::rgba16:
+        case MapFormat::rg32ui:
             return 8;
         case MapFormat::rgba32f:
             return 16;
@@ -514,6 +616,10 @@ std::string_view toText(Prefilter prefilter) {
             return "separable mean, least and greatest";
         case Prefilter::converted:
             return "none; texels converted";
+        case Prefilter::mips:
+            return "mip chain";
+        case Prefilter::sums:
+            return "summed-area table";
     }
     return "unknown prefilter";
 }

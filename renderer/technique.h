@@ -24,15 +24,16 @@ namespace renderer {
 
 /// What a texel of the map holds that the lookup reads. The split stores two values in four halves
 /// (shared/filtered_map.glsl).
-enum class MapFormat { depth32f, r32f, rg32f, rgba32f, rg16f, rgba16f, rg16fSplit, rgba16 };
+enum class MapFormat { depth32f, r32f, rg32f, rgba32f, rg16f, rgba16f, rg16fSplit, rgba16, rg32ui };
 std::string_view toText(MapFormat format);
 int bytesPerTexel(MapFormat format);
 
-/// What is done to the map between depth pass and lookup: nothing, or a separable kernel over the
+/// What is done to the map between depth pass and lookup: nothing; a separable kernel over the
 /// map's values, over the exponentials of which it stores the logarithm, or one that also finds the
-/// least and the greatest; or each texel is converted by itself and the lookup has the kernel. The
-/// numbers are those of shared/filtered_map.glsl.
-enum class Prefilter { none = 0, mean = 1, logMean = 2, minMaxMean = 3, converted = 4 };
+/// least and the greatest (the numbers are those of shared/filtered_map.glsl); each texel is
+/// converted by itself and the lookup has the kernel; a mip chain; a summed-area table. The last
+/// two have every width at the lookup.
+enum class Prefilter { none = 0, mean = 1, logMean = 2, minMaxMean = 3, converted, mips, sums };
 std::string_view toText(Prefilter prefilter);
 
 /// What every technique promises (METHODS section 6); a row names the ones that do not hold for it.

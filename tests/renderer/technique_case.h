@@ -97,6 +97,7 @@ inline renderer::f64::ShadowReceiver receiverAt(double u, double v, double depth
             .depthGradient = gradient,
             .depthError = 2e-6,
             .footprintUv = 0.001,
+            .longestStep = {0.001, 0},
             .facesLight = true};
 }
 
@@ -106,6 +107,7 @@ inline renderer::f32::ShadowReceiver toFloat(const renderer::f64::ShadowReceiver
             .depthGradient = glm::vec2(r.depthGradient),
             .depthError = static_cast<float>(r.depthError),
             .footprintUv = static_cast<float>(r.footprintUv),
+            .longestStep = glm::vec2(r.longestStep),
             .facesLight = r.facesLight};
 }
 

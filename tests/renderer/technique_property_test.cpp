@@ -119,7 +119,10 @@ void expectUnitRangeOfAnyTexel(const Technique& technique) {
             texel[i] = static_cast<Real>(random() < 0.8 ? random(-1, 1) : odd);
         }
         constexpr int kMostLayers = renderer::kMostLayers;
-        map.texels.assign(static_cast<std::size_t>(kMostLayers * map.edge * map.edge), texel);
+        const auto texels = static_cast<std::size_t>(kMostLayers * map.edge * map.edge);
+        map.texels.assign(texels, texel);
+        map.sums.assign(texels,
+                        glm::uvec4(random.whole(0, 1 << 30), random.whole(0, 1 << 30), 0, 0));
         const auto wide = receiverAt(0.5, 0.5, random(-0.1, 1.1), {random(-2, 2), random(-2, 2)});
         double visibility;
         if constexpr (std::is_same_v<Real, float>)

@@ -10,8 +10,7 @@
 // slope has.
 
 SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstants shadow) {
-    real within = real(0.25) * dot(slope, slope) * PARAMETER_derivative;
-    return real4(depth, min(depth * depth + within, real(1.0)), 0.0, 0.0);
+    return varianceTexel(depth, slope, PARAMETER_derivative);
 }
 
 SHARED_FUNCTION real filterVisibility(sampler2DArray map, ShadowReceiver receiver, ShadowConstants shadow) {

@@ -17,3 +17,10 @@ SHARED_FUNCTION real chebyshevBound(real mean, real meanSquare, real depth, real
 SHARED_FUNCTION real withoutBleeding(real visibility, real cut) {
     return unitRange((visibility - cut) / (real(1.0) - cut));
 }
+
+// Mean and mean square over a texel whose depth changes by `slope` across it: a quarter of the squared derivatives more
+// than the square, times `weight` (A. Lauritzen, "Summed-area variance shadow maps", GPU Gems 3, 2007).
+SHARED_FUNCTION real4 varianceTexel(real depth, real2 slope, real weight) {
+    real within = real(0.25) * dot(slope, slope) * weight;
+    return real4(depth, min(depth * depth + within, real(1.0)), 0.0, 0.0);
+}

@@ -24,7 +24,9 @@ struct ShadowConstants {
                                     // z samples along a screen pixel's edge (1 but for antialiased pictures)
     real4 parameters[2];            // of the technique, in the order of its table row
     real4 prefilter;                // x the kernel's standard deviation in texels, y 1 if it is a Gaussian and 0 if a box,
-                                    // z texels of the guard band, w 1 if a texel is split into high and low parts
+                                    // z texels of the guard band; w 1 if a texel is split into high and low parts,
+                                    // or minus the levels of a mip chain above its first, or minus the units of summed
+                                    // texels that make 1
     real4 layerEnds[4];             // of a layered technique: where each of up to 16 layers of depth ends
 };
 

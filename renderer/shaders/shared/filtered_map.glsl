@@ -17,8 +17,10 @@ SHARED_FUNCTION real casterDepth(sampler2D depthMap, int2 texel, ShadowConstants
     int guard = int(shadow.prefilter.z);
     int2 inside = texel - int2(guard, guard);
     int last = int(shadow.map.x) - 1;
-    if (inside.x < 0 || inside.y < 0 || inside.x > last || inside.y > last) return real(1.0);
-    return casterOf(real(texelFetch(depthMap, inside, 0).x));
+    int2 at = clamp(inside, int2(0, 0), int2(last, last));
+    // Read before it is known to be inside: without a branch a driver sees that neighbours read the same texels.
+    real depth = casterOf(real(texelFetch(depthMap, at, 0).x));
+    return at == inside ? depth : real(1.0);
 }
 
 SHARED_FUNCTION real smallerOf(real a, real b) { return abs(a) < abs(b) ? a : b; }
@@ -38,8 +40,13 @@ SHARED_FUNCTION real2 casterSlope(sampler2D depthMap, int2 texel, ShadowConstant
 // before it is filtered, since the parts of a mean are not the means of the parts in 11 bits.
 const real kSplitFactor = real(256.0);
 
+// A pass of the GPU is compiled for one way of storing and defines this.
+#ifndef MAP_IS_SPLIT
+#define MAP_IS_SPLIT (shadow.prefilter.w > real(0.0))
+#endif
+
 SHARED_FUNCTION real4 packedTexel(real4 value, ShadowConstants shadow) {
-    if (shadow.prefilter.w == real(0.0)) return value;
+    if (!MAP_IS_SPLIT) return value;
     real2 scaled = real2(value.x, value.y) * kSplitFactor;
     real2 whole = floor(scaled);
     real2 rest = scaled - whole;
@@ -47,7 +54,7 @@ SHARED_FUNCTION real4 packedTexel(real4 value, ShadowConstants shadow) {
 }
 
 SHARED_FUNCTION real4 unpackedTexel(real4 stored, ShadowConstants shadow) {
-    if (shadow.prefilter.w == real(0.0)) return stored;
+    if (!MAP_IS_SPLIT) return stored;
     return real4(stored.x + stored.z / kSplitFactor, stored.y + stored.w / kSplitFactor, 0.0, 0.0);
 }
 
@@ -81,20 +88,45 @@ SHARED_FUNCTION TapWeights tapWeights(ShadowConstants shadow) {
     return weights;
 }
 
-// How taps join: the numbers are Prefilter in technique.h.
-// mean: all four channels. logMean: x is a logarithm, kept as one, since the exponentials overflow; the sum is counted
-// in units of the largest tap so far. minMaxMean: x mean, y least, z greatest.
+// How taps join: the numbers are Prefilter in technique.h. Some taps joined are
+// mean: all four channels times their weights. logMean: x the largest of the logarithms, y the sum of weighted
+// exponentials in units of the largest one, since the exponentials themselves overflow. minMaxMean: x mean times
+// weights, y least, z greatest.
 const int kPrefilterMean = 1;
 const int kPrefilterLogMean = 2;
 const int kPrefilterMinMaxMean = 3;
 
-SHARED_FUNCTION real4 joinedTap(int prefilter, real4 sum, real4 value, real weight) {
-    if (prefilter == kPrefilterMean) return sum + value * weight;
+SHARED_FUNCTION real4 emptyTaps(int prefilter) {
+    if (prefilter == kPrefilterMean) return real4(0.0);
+    if (prefilter == kPrefilterLogMean) return real4(-1e30, 0.0, 0.0, 0.0);
+    return real4(0.0, 2.0, -1.0, 0.0);
+}
+
+SHARED_FUNCTION real4 weightedTaps(int prefilter, real4 taps, real weight) {
+    if (prefilter == kPrefilterMean) return taps * weight;
+    if (prefilter == kPrefilterLogMean) return real4(taps.x, taps.y * weight, 0.0, 0.0);
+    return real4(taps.x * weight, taps.y, taps.z, 0.0);
+}
+
+// One tap.
+SHARED_FUNCTION real4 tapOf(int prefilter, real4 value, real weight) {
+    return weightedTaps(prefilter, prefilter == kPrefilterLogMean ? real4(value.x, 1.0, 0.0, 0.0) : value, weight);
+}
+
+SHARED_FUNCTION real4 joinedTaps(int prefilter, real4 a, real4 b) {
+    if (prefilter == kPrefilterMean) return a + b;
     if (prefilter == kPrefilterLogMean) {
-        real most = max(sum.x, value.x);
-        return real4(most, sum.y * exp(sum.x - most) + weight * exp(value.x - most), 0.0, 0.0);
+        real most = max(a.x, b.x);
+        return real4(most, a.y * exp(a.x - most) + b.y * exp(b.x - most), 0.0, 0.0);
     }
-    return real4(sum.x + value.x * weight, min(sum.y, value.y), max(sum.z, value.z), 0.0);
+    return real4(a.x + b.x, min(a.y, b.y), max(a.z, b.z), 0.0);
+}
+
+// What the joined taps come to; total is the sum of their weights.
+SHARED_FUNCTION real4 valueOfTaps(int prefilter, real4 taps, real total) {
+    if (prefilter == kPrefilterMean) return taps / total;
+    if (prefilter == kPrefilterLogMean) return real4(taps.x + log(taps.y / total), 0.0, 0.0, 0.0);
+    return real4(taps.x / total, taps.y, taps.z, 0.0);
 }
 
 // Beyond the guard band everything is as on its rim.
@@ -108,23 +140,19 @@ SHARED_FUNCTION real4 filteredLine(sampler2DArray map, int2 texel, int2 axis, in
                                    ShadowConstants shadow) {
     int last = filteredEdge(shadow) - 1;
     int taps = kernelTaps(shadow);
-    real4 sum = real4(0.0);
-    if (prefilter == kPrefilterLogMean) sum = real4(-1e30, 0.0, 0.0, 0.0);
-    if (prefilter == kPrefilterMinMaxMean) sum = real4(0.0, 2.0, -1.0, 0.0);
-    sum = joinedTap(prefilter, sum, lineTexel(map, texel, layer, last, shadow), real(1.0));
+    real4 sum = tapOf(prefilter, lineTexel(map, texel, layer, last, shadow), real(1.0));
     TapWeights weights = tapWeights(shadow);
     real weight = real(1.0);
     real total = real(1.0);
     for (int i = 1; i <= taps; ++i) {
         weight *= i == taps ? weights.ratio * weights.rim : weights.ratio;
         weights.ratio *= weights.change;
-        sum = joinedTap(prefilter, sum, lineTexel(map, texel - axis * i, layer, last, shadow), weight);
-        sum = joinedTap(prefilter, sum, lineTexel(map, texel + axis * i, layer, last, shadow), weight);
+        real4 before = tapOf(prefilter, lineTexel(map, texel - axis * i, layer, last, shadow), weight);
+        real4 after = tapOf(prefilter, lineTexel(map, texel + axis * i, layer, last, shadow), weight);
+        sum = joinedTaps(prefilter, sum, joinedTaps(prefilter, before, after));
         total += real(2.0) * weight;
     }
-    if (prefilter == kPrefilterMean) return sum / total;
-    if (prefilter == kPrefilterLogMean) return real4(sum.x + log(sum.y / total), 0.0, 0.0, 0.0);
-    return real4(sum.x / total, sum.y, sum.z, 0.0);
+    return valueOfTaps(prefilter, sum, total);
 }
 
 // --- The lookup ---

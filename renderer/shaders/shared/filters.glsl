@@ -13,3 +13,6 @@
 #include "shared/exponential_warp.glsl"
 #include "shared/hamburger.glsl"
 #include "shared/depth_layers.glsl"
+#include "shared/summed_map.glsl"
+#include "shared/mip_map.glsl"
+#include "shared/penumbra_estimate.glsl"

@@ -7,6 +7,7 @@ struct ShadowReceiver {
     real2 depthGradient;  // d depth / d uv of the plane that the surface lies in
     real depthError;      // how far float32 may have moved depth here or in the map
     real footprintUv;     // edge of one screen pixel on the map, as METHODS' pixel bound takes it
+    real2 longestStep;    // the longer of the steps of uv along one screen pixel in x and in y
     bool facesLight;      // surfaces turned away are in shadow without a lookup
 };
 
@@ -72,8 +73,10 @@ SHARED_FUNCTION ShadowReceiver shadowReceiver(real3 eyeRelative, real3 planeNorm
     real viewDepth = dot(eyeRelative, real3(view.forward));
     real3 alongX = stepOnPlane(eyeRelative, planeNormal, real3(view.pixelRight) * viewDepth);
     real3 alongY = stepOnPlane(eyeRelative, planeNormal, real3(view.pixelUp) * viewDepth);
-    receiver.footprintUv = pixelFootprint(real2(dot(gradientU, alongX), dot(gradientV, alongX)),
-                                          real2(dot(gradientU, alongY), dot(gradientV, alongY)));
+    real2 stepX = real2(dot(gradientU, alongX), dot(gradientV, alongX));
+    real2 stepY = real2(dot(gradientU, alongY), dot(gradientV, alongY));
+    receiver.footprintUv = pixelFootprint(stepX, stepY);
+    receiver.longestStep = dot(stepX, stepX) > dot(stepY, stepY) ? stepX : stepY;
     receiver.facesLight = dot(planeNormal, real3(shadow.towardsLight)) > real(0.0);
     return receiver;
 }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The radius of a penumbra from means over the widest kernel, without looking at one blocker. Needs receiver.glsl.
+// B. Yang, Z. Dong, J. Feng, H.-P. Seidel, J. Kautz, "Variance soft shadow mapping", 2010, equations 3 to 5: what lies
+// before the receiver has the mean z_b, the rest lies at the receiver d, and Chebyshev's bound p is the rest's share:
+// mean = p d + (1 - p) z_b, so d - z_b = (d - mean) / (1 - p) = (d - mean) + variance / (d - mean).
+// Exact for a planar occluder over a parallel receiver.
+
+// Distance of the receiver from the mean of what lies before it; 0 where nothing does.
+SHARED_FUNCTION real gapToBlockers(real mean, real meanSquare, real depth, real leastVariance) {
+    if (!(depth > mean)) return real(0.0);
+    real variance = max(meanSquare - mean * mean, leastVariance);
+    real beyond = depth - mean;
+    return clamp(beyond + variance / beyond, real(0.0), real(1.0));
+}
+
+// The sun's penumbra: a blocker at `distance` before the receiver throws one of the kernel's radius.
+SHARED_FUNCTION real radiusOfGap(real gap, real distance, ShadowReceiver receiver, ShadowConstants shadow) {
+    return shownRadiusUv(min(shadow.kernel.x * gap / distance, real(1.0)), receiver, shadow);
+}
+
+// The widest one: no blocker lies farther before the receiver than the light does. As in prefilterConstants().
+SHARED_FUNCTION real widestPenumbraUv(real distance, ShadowConstants shadow) {
+    return clamp(max(shadow.kernel.x / distance, shadow.kernel.y), real(0.0), real(1.0));
+}

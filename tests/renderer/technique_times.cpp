@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Prints what the filtered techniques cost against each other and against the
+// full disc, in one interleaved run at the same softness, so that whatever else
+// the machine does falls on all of them: docs/results/technique-times.md.
+//   technique_times [WIDTH HEIGHT [ROUNDS]] >> docs/results/technique-times.md
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "program/build_info.h"
+#include "renderer/renderer.h"
+
+namespace {
+
+constexpr int kResolution = 1024;
+
+struct Quartiles {
+    double low, median, high;
+};
+
+Quartiles quartilesOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto at = [&](double share) {
+        const double place = share * static_cast<double>(values.size() - 1);
+        const auto low = static_cast<std::size_t>(place);
+        const std::size_t high = std::min(low + 1, values.size() - 1);
+        return values[low] + (values[high] - values[low]) * (place - static_cast<double>(low));
+    };
+    return {at(0.25), at(0.5), at(0.75)};
+}
+
+struct Row {
+    const renderer::Technique* technique;
+    std::array<std::vector<double>, renderer::kPasses> passesMs;
+    std::vector<double> sumsMs;
+
+    double median(renderer::Pass pass) const {
+        return quartilesOf(passesMs[static_cast<std::size_t>(pass)]).median;
+    }
+};
+
+std::string ratio(const Row& row, const Row& to) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < row.sumsMs.size(); ++i)
+        ratios.push_back(row.sumsMs[i] / to.sumsMs[i]);
+    const Quartiles q = quartilesOf(ratios);
+    char text[48];
+    std::snprintf(text, sizeof text, "%.2f (%.2f-%.2f)", q.median, q.low, q.high);
+    return text;
+}
+
+void measure(const renderer::GlInfo& info, const renderer::SceneEntry& scene, int width, int height,
+             int rounds) {
+    using renderer::Pass;
+    renderer::Renderer frame(info, scene.make(), width, height);
+    const auto radius = static_cast<float>(frame.scene().softnessM / frame.window().extentM);
+    std::vector<Row> rows;
+    for (const renderer::Technique& technique : renderer::techniques())
+        if (technique.name == "pcf_disc" || technique.prefilter != renderer::Prefilter::none)
+            rows.push_back({&technique, {}, {}});
+    renderer::PassClock clock(info);
+    for (int round = -1; round < rounds; ++round)  // the first warms up
+        for (Row& row : rows) {
+            const renderer::FrameSettings settings{.technique = row.technique,
+                                                   .resolution = kResolution,
+                                                   .radiusUv = radius,
+                                                   .lit = false};
+            frame.render(settings);  // allocates: one renderer goes from technique to technique
+            frame.render(settings, &clock);
+            const renderer::PassTimesMs times = clock.collectMs();
+            if (round < 0) continue;
+            double sum = 0;
+            for (const Pass pass : {Pass::depth, Pass::prefilter, Pass::lookup}) {
+                const auto i = static_cast<std::size_t>(pass);
+                row.passesMs[i].push_back(times[i]);
+                sum += times[i];
+            }
+            row.sumsMs.push_back(sum);
+        }
+    const auto find = [&](std::string_view name) -> const Row& {
+        return *std::find_if(rows.begin(), rows.end(),
+                             [&](const Row& row) { return row.technique->name == name; });
+    };
+    std::printf(
+        "\n**%s**, %d x %d px, N = %d, radius %.5f of the map = %.1f "
+        "texels, %d rounds\n\n"
+        "| technique | depth ms | prefilter ms | lookup ms | sum ms | of "
+        "pcf_disc | of vsm |\n"
+        "|---|---|---|---|---|---|---|\n",
+        std::string(scene.name).c_str(), width, height, kResolution, static_cast<double>(radius),
+        static_cast<double>(radius) * kResolution, rounds);
+    for (const Row& row : rows)
+        std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %s | %s |\n",
+                    std::string(row.technique->name).c_str(), row.median(Pass::depth),
+                    row.median(Pass::prefilter), row.median(Pass::lookup),
+                    quartilesOf(row.sumsMs).median, ratio(row, find("pcf_disc")).c_str(),
+                    ratio(row, find("vsm")).c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int width = argc > 2 ? std::atoi(argv[1]) : 1280;
+    const int height = argc > 2 ? std::atoi(argv[2]) : 720;
+    const int rounds = argc > 3 ? std::max(std::atoi(argv[3]), 1) : 9;
+    const renderer::HeadlessContext context;
+    std::printf(
+        "## Revision %s, %s, %s\n\n%s; %s. Depth pass, prefilter and lookup, "
+        "each by %s; the sum "
+        "is theirs and leaves out what is the\nsame for all: prepass and lit "
+        "pass. Every filtered "
+        "technique at its defaults, so with a box as soft as the disc. "
+        "Medians;\nratios are of the "
+        "same round, median and quartiles.\n",
+        program::buildInfo().revision.c_str(), program::buildInfo().buildType.c_str(),
+        program::buildInfo().compiler.c_str(), context.info().renderer.c_str(),
+        context.info().version.c_str(),
+        std::string(renderer::PassClock(context.info()).method()).c_str());
+    for (const renderer::SceneEntry& scene : renderer::builtInScenes())
+        if (scene.name == "planar_occluder" || scene.name == "yard")
+            measure(context.info(), scene, width, height, rounds);
+    return 0;
+}
