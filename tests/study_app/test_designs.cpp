@@ -6,7 +6,7 @@
 namespace tests {
 
 std::filesystem::path shippedDesignFile(const std::string& name) {
-    return std::filesystem::path(__FILE__).parent_path() / "../../data/designs" / (name + ".json");
+    return std::filesystem::path(STAIRWELL_SOURCE_DIR) / "data/designs" / (name + ".json");
 }
 
 study_app::Design shippedDesign(const std::string& name) {
