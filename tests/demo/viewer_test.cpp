@@ -101,10 +101,11 @@ TEST(Viewer, DifferenceIsGreyWhereTheFramesAgree) {
 // Both views paint what the controller counts, so they paint the same pixels but for the surfaces
 // that face away from the light.
 TEST(Viewer, PenumbraAndDemandPaintThePenumbra) {
-    demo::Viewer viewer(gl(), smallState(View::penumbra), std::nullopt, 96, 54);
+    ViewerState state = smallState(View::penumbra);
+    state.radiusUv = 0.05;  // wider than a pixel: beside a narrow penumbra, pixels ask too
+    demo::Viewer viewer(gl(), state, std::nullopt, 96, 54);
     viewer.settle();
     const renderer::ByteImage painted = viewer.picture(1);
-    ViewerState state = viewer.state();
     state.view = View::demand;
     viewer.show(state);
     viewer.step();
