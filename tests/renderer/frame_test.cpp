@@ -560,9 +560,9 @@ TEST(Frame, SaysWhichTextureTheDriverRefusesAndGoesOn) {
         }
         return "nothing was thrown";
     };
-    EXPECT_THAT(message([] { renderer::makeTextureArray(GL_RGBA32F, 8192, 2048, "stack"); }),
-                HasSubstr("texture \"stack\" of 8192 x 8192 texels: the driver refuses it"));
     const int wider = 2 * gl().maxResolution;
+    EXPECT_THAT(message([] { renderer::makeTextureArray(GL_RGBA32F, 8192, 2048, 1, "stack"); }),
+                HasSubstr("texture \"stack\" of 8192 x 8192 texels: the driver refuses it"));
     EXPECT_THAT(message([&] { renderer::makeTexture(GL_R32F, wider, 1, "map"); }),
                 HasSubstr("texture \"map\" of " + std::to_string(wider) + " x 1 texels"));
     renderer::Renderer frame(gl(), renderer::makeScene("yard"), 16, 9);
