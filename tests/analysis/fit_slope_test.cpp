@@ -98,6 +98,10 @@ TEST(FitSlope, ReadsTheHumanTablesAsTheyAre) {
     for (const records::SlopeGroup& group : slope.groups) {
         EXPECT_TRUE(group.c.ci95) << group.name;
     }
+    // METHODS section 5: c falls with size there, which a law with kappa = 1 does not allow.
+    ASSERT_TRUE(slope.kappaPValue && slope.kappa.ci95);
+    EXPECT_LT(*slope.kappaPValue, 0.05);
+    EXPECT_LT(slope.kappa.ci95->high, 1);
     // Known of it: observers differ by .04 to .22 log10.
     EXPECT_GT(slope.observerSd, 0.04);
     EXPECT_LT(slope.observerSd, 0.22);
