@@ -71,18 +71,21 @@ std::vector<records::TrialTable> jumping(tests::StudyPlan plan, std::uint64_t se
     return tables;
 }
 
-// At the size of the published study; with a quarter of the trials it is found once in ten studies.
+// At the size of the published study, where such observers are found out in four of five studies;
+// with a quarter of the trials in one of ten.
 TEST(LackOfFit, FindsAnswersThatScatterMoreThanTheModelSays) {
     const tests::StudyPlan plan{.observers = 10, .groups = tests::fourGroups(0.4, 0.38, 0.54, 0.5)};
+    int found = 0;
     for (std::uint64_t seed = 600; seed < 603; ++seed) {
         const Checked one = checked(jumping(plan, seed));
         ASSERT_TRUE(one.check.dispersion);
         EXPECT_GT(one.check.dispersion->ratio(), 1.2);
-        EXPECT_LT(one.check.dispersion->pValue, 0.05);
+        found += one.check.dispersion->pValue < 0.05 ? 1 : 0;
         const Checked steady = checked(tablesOf(plan, seed));
         EXPECT_GT(steady.check.dispersion->pValue,
                   0.05);  // .8 of its degrees of freedom on average
     }
+    EXPECT_GE(found, 2);  // of 3: less with probability .1, the seeds are fixed
 }
 
 // No observer has enough trials for a bin of his own: which of them had would depend on the
