@@ -185,9 +185,15 @@ cv::Mat tapVisibilityImage(const StimulusOptions& o, Edge edge) {
         const double y = bottom - o.roving.shiftPx + (o.windowPx - 1 - row);
         for (int c = 0; c < image.cols; ++c) {
             if (o.taps->turn == TapTurn::perPixel) turn = randomDirection(rng);
+            const double atX = left + c;
+            if (const auto all = edge == Edge::artifact ? edges.artifactAround(atX, y, radius)
+                                                        : edges.straightAround(atX, y, radius)) {
+                image.at<double>(row, c) = *all;
+                continue;
+            }
             double lit = 0;
             for (const Point& tap : taps) {
-                const double x = left + c + radius * (turn.x * tap.x - turn.y * tap.y);
+                const double x = atX + radius * (turn.x * tap.x - turn.y * tap.y);
                 const double tapY = y + radius * (turn.y * tap.x + turn.x * tap.y);
                 lit += edge == Edge::artifact ? edges.artifact(x, tapY) : edges.straight(x, tapY);
             }

@@ -11,6 +11,7 @@
 // mean is a disc filter with n rings in place of the filled disc.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -61,7 +62,24 @@ class SharpEdges {
     }
     double straight(double x, double y) const { return lit(silhouette_.distance(x, y)); }
 
+    /// The light or shadow that every point within `radiusPx` of here has; nothing where an edge is
+    /// that near. Heights rise from left to right.
+    std::optional<double> artifactAround(double x, double y, double radiusPx) const {
+        const double reach = withMargin(radiusPx);
+        const double lightest = artifact(x - reach, y + reach);
+        const double darkest = artifact(x + reach, y - reach);
+        return lightest == darkest && lightest != 0.5 ? std::optional(lightest) : std::nullopt;
+    }
+    std::optional<double> straightAround(double x, double y, double radiusPx) const {
+        const double distance = silhouette_.distance(x, y);
+        if (std::abs(distance) <= withMargin(radiusPx)) return {};
+        return lit(distance);
+    }
+
   private:
+    /// Far above what rounding moves a point by.
+    static double withMargin(double radiusPx) { return radiusPx * (1 + 1e-9) + 1e-6; }
+
     static double lit(double above) { return above > 0 ? 1 : above < 0 ? 0 : 0.5; }
 
     Silhouette silhouette_;

@@ -99,6 +99,35 @@ TEST(TurnedTaps, AreMeansOfLightAndShadowAndTheSameForOneSeed) {
 // A pixel's variance is at most 1/4; pixels are turned independently. 5 sd, wrong once in 2
 // million; the rings in place of the disc move the mean by less than 1 / n^2 of the band's own
 // area.
+TEST(SharpEdges, AreAlikeAroundAPointOnlyWhereNoEdgeIsNear) {
+    std::mt19937_64 rng(5);
+    std::uniform_real_distribution<double> place(-40, 40), radius(0.1, 30), unit(-1, 1);
+    for (const Pattern pattern : {Pattern::stair, Pattern::step}) {
+        const Silhouette silhouette(
+            SilhouetteOptions{.pattern = pattern, .artifactPx = 7, .riserSpacingPx = 80});
+        const SharpEdges edges(silhouette, 80);
+        int alike = 0;
+        for (int i = 0; i < 3000; ++i) {
+            const double x = place(rng), y = place(rng), r = radius(rng);
+            const auto artifact = edges.artifactAround(x, y, r);
+            const auto straight = edges.straightAround(x, y, r);
+            alike += artifact && straight ? 1 : 0;
+            for (int k = 0; k < 30; ++k) {
+                const Point turn = randomDirection(rng);
+                const double share = std::abs(unit(rng)) * r;
+                const double u = x + share * turn.x, v = y + share * turn.y;
+                if (artifact) {
+                    ASSERT_EQ(edges.artifact(u, v), *artifact);
+                }
+                if (straight) {
+                    ASSERT_EQ(edges.straight(u, v), *straight);
+                }
+            }
+        }
+        EXPECT_GT(alike, 300);
+    }
+}
+
 TEST(TurnedTaps, AreADiscInTheMean) {
     const StimulusOptions o = withTaps(16);
     StimulusOptions disc = o;
