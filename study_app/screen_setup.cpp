@@ -97,7 +97,7 @@ void drawState(const Page& page, const SetupState& setup) {
         ImGui::PushFont(page.window.fonts().text);
         ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "%s", setup.design->name.c_str());
         ImGui::PopFont();
-        faint(page, setup.design->description);
+        if (!setup.design->description.empty()) faint(page, setup.design->description);
         ImGui::Dummy({0, page.px(4)});
         for (const std::string& line : setup.summary) paragraph(line);
     }

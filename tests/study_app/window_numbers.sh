@@ -7,7 +7,7 @@ set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." || exit 1
 bin=${1:?the folder of study_app}
 if [ -z "${STAIRWELL_XVFB-}" ]; then
-    STAIRWELL_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24' "$0" "$@"
+    STAIRWELL_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24' "$PWD/tests/study_app/window_numbers.sh" "$@"
 fi
 shift
 [ $# -gt 0 ] || set -- start idle speed memory kills
@@ -77,7 +77,7 @@ idleTimes() {
     echo
 }
 
-trials=200
+trials=${STAIRWELL_TRIALS:-200}
 speed() { # KIND FIELDS CONDITIONS WORDS: an observer who is quick
     case " $wanted " in *" speed "* | *" speed:$1 "*) ;; *) return ;; esac
     design "$1" 600 $((trials / $3)) "$2"', "catch_share": 0'
