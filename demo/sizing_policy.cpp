@@ -141,12 +141,15 @@ const SizingPolicy& automaticPolicy() {
     return findSizingPolicy("percentile");
 }
 
-int chosenSize(const SizingPolicy& policy, const FrameFacts& facts, double parameter, int smallest,
-               int largest) {
-    const double texels = std::clamp(policy.texels(facts, parameter), static_cast<double>(smallest),
-                                     static_cast<double>(largest));
+int chosenSize(const SizingPolicy& policy, const FrameFacts& facts, double parameter,
+               std::span<const int> sizes) {
+    const double texels =
+        std::clamp(policy.texels(facts, parameter), static_cast<double>(rc::kSmallestLevel),
+                   static_cast<double>(rc::kLargestLevel));
     const auto need = static_cast<std::int64_t>(std::ceil(texels));
-    return std::clamp(rc::levelAtLeast(need, policy.levels).value_or(largest), smallest, largest);
+    const int level = rc::levelAtLeast(need, policy.levels).value_or(rc::kLargestLevel);
+    const auto found = std::lower_bound(sizes.begin(), sizes.end(), level);
+    return found == sizes.end() ? sizes.back() : *found;
 }
 
 }  // namespace demo

@@ -44,8 +44,9 @@ const SizingPolicy& findSizingPolicy(std::string_view name);
 /// The policy that the programs use for --resolution auto.
 const SizingPolicy& automaticPolicy();
 
-/// The level that the policy takes, within the two limits, which must be levels.
-int chosenSize(const SizingPolicy& policy, const FrameFacts& facts, double parameter, int smallest,
-               int largest);
+/// The smallest of `sizes` (levels, ascending, at least one) that is no less than the level which
+/// the policy takes; the largest where none is.
+int chosenSize(const SizingPolicy& policy, const FrameFacts& facts, double parameter,
+               std::span<const int> sizes);
 
 }  // namespace demo

@@ -369,7 +369,7 @@ class Sweep {
                 sizes +=
                     (sizes.empty() ? "" : ",") +
                     std::to_string(chosenSize(policy, facts, policyParameter(policy.standard, step),
-                                              settings_.sizes.front(), settings_.sizes.back()));
+                                              settings_.sizes));
             std::vector<std::string> row = unit.key();
             row.emplace_back(policy.name);
             row.push_back(sizes);

@@ -172,8 +172,9 @@ TEST(SizingPolicy, TakesLevelsWithinTheLimits) {
         for (int i = 0; i < 100; ++i) histogram.add(rule.c * 100);
         return histogram;
     };
+    const std::vector<int> levels = {128, 184, 256, 368, 512, 728, 1024, 2048, 4096};
     const auto size = [&](const char* policy, double parameter) {
-        return demo::chosenSize(demo::findSizingPolicy(policy), facts, parameter, 128, 4096);
+        return demo::chosenSize(demo::findSizingPolicy(policy), facts, parameter, levels);
     };
     EXPECT_EQ(size("fixed", 300), 368);
     EXPECT_EQ(size("coverage", 2), 1024);  // 600, a power of two
@@ -183,11 +184,12 @@ TEST(SizingPolicy, TakesLevelsWithinTheLimits) {
     EXPECT_EQ(size("percentile", 3.47), 368);
     EXPECT_EQ(size("fixed", 1), 128);
     EXPECT_EQ(size("fixed", 1e9), 4096);
+    EXPECT_EQ(size("fixed", 1400), 2048);  // 1456 is not among the sizes
     for (const demo::SizingPolicy& policy : demo::sizingPolicies()) {
         int last = 0;
         for (int step = -demo::kPolicySteps; step <= demo::kPolicySteps; ++step) {
-            const int now = demo::chosenSize(
-                policy, facts, demo::policyParameter(policy.standard, step), 128, 4096);
+            const int now = demo::chosenSize(policy, facts,
+                                             demo::policyParameter(policy.standard, step), levels);
             EXPECT_GE(now, last) << policy.name << ": a larger parameter takes a smaller map";
             last = now;
         }
