@@ -69,7 +69,9 @@ std::vector<PolicyComparison> comparePolicies(const SweepTable& table, double bo
         comparison.technique = technique;
         comparison.ours = calibrated(table, automaticPolicy(), technique, bound);
         for (const SizingPolicy& policy : sizingPolicies()) {
-            PolicyComparison::Entry entry{&policy, calibrated(table, policy, technique, bound), 0};
+            PolicyComparison::Entry entry;
+            entry.policy = &policy;
+            entry.result = calibrated(table, policy, technique, bound);
             if (entry.result && comparison.ours)
                 entry.timesOurs = entry.result->geometricMeanMs / comparison.ours->geometricMeanMs;
             comparison.entries.push_back(std::move(entry));

@@ -4,6 +4,7 @@
 // what is left to compare is the time.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,7 +49,8 @@ struct PolicyComparison {
     struct Entry {
         const SizingPolicy* policy = nullptr;
         std::optional<PolicyResult> result;  ///< absent: it cannot keep to the bound
-        double timesOurs = 0;  ///< geometric mean of its time over ours; below 1 we lose
+        /// Geometric mean of its time over ours; below 1 we lose, NaN without both.
+        double timesOurs = std::numeric_limits<double>::quiet_NaN();
     };
     std::vector<Entry> entries;  ///< in the order of sizingPolicies()
     std::optional<PolicyResult> ours;
