@@ -37,6 +37,13 @@ PolicyResult evaluate(const SweepTable& table, const SizingPolicy& policy,
                 sum = NAN;
                 continue;
             }
+            if (!table.convergedAgainst(*cell)) {
+                result.missing = scene + " frame " + std::to_string(frame) + " at " +
+                                 std::to_string(size) + ": its reference is " +
+                                 std::to_string(cell->reference) + " alone";
+                sum = NAN;
+                continue;
+            }
             sum += cell->frameMs.median;
             rmse = std::max(rmse, cell->rmse);
             addCounts(ripples, cell->ripples);

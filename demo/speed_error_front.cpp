@@ -13,7 +13,8 @@ bool addScene(const SweepTable& table, const std::string& scene, SpeedAndError& 
     double sum = 0;
     for (int frame = 0; frame < table.frames; ++frame) {
         const SweepCell* cell = table.find(scene, frame, point.technique, point.resolution);
-        if (cell == nullptr || !cell->measured() || cell->resolution == cell->reference)
+        if (cell == nullptr || !cell->measured() || cell->resolution == cell->reference ||
+            !table.convergedAgainst(*cell))
             return false;
         sum += cell->frameMs.median;
         point.error = std::max(point.error, cell->rmse);

@@ -302,8 +302,8 @@ std::vector<std::string> brokenTechniques(const SweepTable& table) {
                 why = cell.status;
             else if (cell.measured() && !std::isfinite(cell.rmse))
                 why = "visibility is no number";
-            else if (cell.measured() && 2 * cell.resolution >= cell.reference &&
-                     cell.rmse > kMostErrorNearReference)
+            else if (cell.measured() && table.convergedAgainst(cell) &&
+                     2 * cell.resolution >= cell.reference && cell.rmse > kMostErrorNearReference)
                 why = "RMSE " + formatted("%.3f", cell.rmse) + " against " +
                       std::to_string(cell.reference);
             if (why.empty()) continue;

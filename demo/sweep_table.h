@@ -54,6 +54,12 @@ struct SweepTable {
 
     const SweepCell* find(const std::string& scene, int frame, const std::string& technique,
                           int resolution) const;
+    /// Whether errors against this cell's reference mean what those of other cells do: it is at
+    /// least half of the sweep's largest size. Where larger ones were skipped it may be as coarse
+    /// as the cell itself.
+    bool convergedAgainst(const SweepCell& cell) const {
+        return !sizes.empty() && 2 * cell.reference >= sizes.back();
+    }
     /// Null where the journals do not have it.
     const std::vector<int>* sizesOf(const std::string& policy, const std::string& scene, int frame,
                                     const std::string& technique) const;

@@ -19,8 +19,9 @@ using testing::HasSubstr;
 const std::vector<int> kSizes = {128, 256, 512, 1024, 2048};
 
 struct MadeUp {
-    double slower = 1;  ///< factor of all times
-    double worse = 0;   ///< added to all errors
+    double slower = 1;     ///< factor of all times
+    double worse = 0;      ///< added to all errors
+    int reference = 2048;  ///< of all errors
     bool skipLargest = false;
     bool broken = false;  ///< NaN in place of the errors at 1024
 };
@@ -40,7 +41,7 @@ void writeSweep(const std::filesystem::path& folder, const MadeUp& sweep) {
                            "1", "1", "4"});
             if (skipped) continue;
             std::vector<std::string> row = {scene, "0", "pcf_disc", std::to_string(size),
-                                            std::to_string(kSizes.back())};
+                                            std::to_string(sweep.reference)};
             row.resize(demo::kSweepErrorColumns.size() - 1, "0.01");
             row[7] =
                 sweep.broken && size == 1024 ? "n/a" : demo::tsvNumber(sweep.worse + 10.0 / size);
@@ -116,6 +117,16 @@ TEST_F(PolicyComparisonOf, WhatWasNotMeasuredIsNamed) {
         demo::evaluate(table, demo::automaticPolicy(), "pcf_disc", demo::kPolicySteps);
     EXPECT_FALSE(result.complete());
     EXPECT_THAT(result.missing, HasSubstr("large frame 0 at 2048: skipped"));
+}
+
+TEST_F(PolicyComparisonOf, ErrorsAgainstACoarseReferenceDoNotCount) {
+    const demo::SweepTable table = sweep({.reference = 512});
+    EXPECT_FALSE(demo::calibrated(table, demo::automaticPolicy(), "pcf_disc").has_value());
+    EXPECT_THAT(demo::evaluate(table, demo::automaticPolicy(), "pcf_disc", 0).missing,
+                HasSubstr("its reference is 512 alone"));
+    EXPECT_TRUE(demo::speedAndErrors(table, "").empty());
+    EXPECT_TRUE(demo::calibrated(sweep({.reference = 1024}), demo::automaticPolicy(), "pcf_disc")
+                    .has_value());
 }
 
 TEST_F(PolicyComparisonOf, TheFrontHasWhatNothingBeats) {
