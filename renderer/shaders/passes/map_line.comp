@@ -52,8 +52,8 @@ void main() {
     float rim = tapWeights(shadow).rim;
     float total = float(2 * taps - 1) + 2.0 * rim;
 
-    vec4 core = tapAt(first + axis * (STRIP - taps));
-    for (int i = STRIP - taps + 1; i < taps; ++i) core = joinedTaps(PREFILTER, core, tapAt(first + axis * i));
+    vec4 core = emptyTaps(PREFILTER);
+    for (int i = STRIP - taps; i < taps; ++i) core = joinedTaps(PREFILTER, core, tapAt(first + axis * i));
 #define READ(k) vec4 before##k = tapAt(first + axis * (k - taps)), after##k = tapAt(first + axis * (k + taps));
     EACH(READ)
     // sumK: from behind the outermost texel before K to the core's end.
