@@ -71,8 +71,8 @@ std::vector<records::TrialTable> jumping(tests::StudyPlan plan, std::uint64_t se
     return tables;
 }
 
-// At the size of the published study, where such observers are found out in four of five studies;
-// with a quarter of the trials in one of ten.
+// At the size of the published study, where most studies of such observers are found out; with an
+// eighth of the trials hardly any.
 TEST(LackOfFit, FindsAnswersThatScatterMoreThanTheModelSays) {
     const tests::StudyPlan plan{.observers = 10, .groups = tests::fourGroups(0.4, 0.38, 0.54, 0.5)};
     int found = 0;
