@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <vector>
 
 #include "renderer/cpu_filter.h"
 #include "renderer/renderer.h"
@@ -129,20 +130,27 @@ FloatImage cpuImage(renderer::Renderer& frame, const Technique& technique,
 }
 
 // Same map, same constants, same receivers: what differs is the rounding of the lookup alone. A
-// compare that falls the other way moves one texel's weight, at most 1 / (pi (r/a)^2) or a whole
-// texel for a hard shadow; the reconstructions of filtered maps are steep at depths that are nearly
-// the mean, and steps where the kernel finds one depth.
+// compare that falls the other way moves one texel's weight, at most 1 / (pi (r/a)^2) of a disc, a
+// tap's (1/16 with the fewest taps of a default) or a whole texel for a hard shadow; the
+// reconstructions of filtered maps are steep at depths that are nearly the mean, and steps where the
+// kernel finds one depth. MSM's equations are so badly conditioned that single precision is off by
+// up to .0099 (docs/results/technique-errors.md), here on either side: many pixels of a terrain at
+// grazing light are beyond .001.
 TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
+    bool first = true;
     for (const auto& entry : renderer::builtInScenes()) {
         renderer::Renderer frame(gl(), renderer::makeScene(entry.name), 120, 68);
         const double softness = frame.scene().softnessM / frame.window().extentM;
+        std::vector<std::pair<int, double>> maps = {{64, softness}};
+        if (first) maps.insert(maps.end(), {{1, 0.3}, {40, 0.0}, {24, 1.0}});
+#ifdef __SANITIZE_ADDRESS__
+        if (!first) break;  // a scene takes a minute there
+#else
+        maps.insert(maps.end(), {{333, softness}, {1024, softness}});
+#endif
+        first = false;
         for (const Technique& technique : renderer::techniques())
-            for (const auto& [n, radius] : {std::pair{1024, softness},
-                                            {333, softness},
-                                            {64, softness},
-                                            {1, 0.3},
-                                            {40, 0.0},
-                                            {24, 1.0}}) {
+            for (const auto& [n, radius] : maps) {
                 const bool filtered = technique.prefilter != renderer::Prefilter::none;
                 if (filtered && n == 1024) continue;  // seconds each; 333 shows the same
                 frame.render({.technique = &technique,
@@ -153,14 +161,17 @@ TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
                 const FloatImage cpu =
                     cpuImage(frame, technique, mapOf(depths, frame.readFilteredMap()));
                 const double texels = radius * n;
-                const double oneTexel = technique.soft && !filtered
-                                            ? std::min(1.0, 1.0 / (kPi * texels * texels + 1e-9))
-                                            : 1.0;
+                const double kernelTexel = 1.0 / (kPi * texels * texels + 1e-9);
+                const double oneTexel =
+                    !technique.soft || filtered   ? 1.0
+                    : technique.name == "pcf_disc" ? std::min(1.0, kernelTexel)
+                                                   : std::clamp(kernelTexel, 1.0 / 16, 1.0);
+                const bool moments = technique.name.starts_with("msm");
                 tests::expectImagesAgree(std::string(entry.name) + "_" +
                                              std::string(technique.name) + "_" + std::to_string(n),
                                          gpu, cpu,
                                          {.most = 2 * oneTexel + 1e-4,
-                                          .often = filtered ? 1e-3 : 1e-4,
+                                          .often = moments ? 2 * .0099 : filtered ? 1e-3 : 1e-4,
                                           .shareBeyondOften = 0.002});
             }
     }
