@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "program/progress.h"
+#include "renderer/scene_file.h"
 
 namespace demo {
 namespace {
@@ -115,7 +116,7 @@ std::vector<const renderer::Technique*> chosenTechniques(const BenchmarkSettings
 
 std::vector<renderer::Scene> chosenScenes(const BenchmarkSettings& settings) {
     std::vector<renderer::Scene> chosen;
-    for (const std::string& name : settings.scenes) chosen.push_back(renderer::makeScene(name));
+    for (const std::string& name : settings.scenes) chosen.push_back(renderer::openScene(name));
     if (settings.scenes.empty())
         for (const renderer::SceneEntry& entry : renderer::builtInScenes())
             chosen.push_back(renderer::makeScene(entry.name));

@@ -12,6 +12,7 @@
 #include "program/progress.h"
 #include "program/run_program.h"
 #include "records/whole_file.h"
+#include "renderer/scene_file.h"
 #include "renderer/window.h"
 
 namespace {
@@ -186,7 +187,7 @@ void writeSequence(const Options& options, demo::Viewer& viewer) {
 /// Pairs of frames for a design of the study.
 void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
     const renderer::HeadlessContext context;
-    renderer::Renderer frame(context.info(), renderer::makeScene(state.scene), options.edge,
+    renderer::Renderer frame(context.info(), renderer::openScene(state.scene), options.edge,
                              options.edge);
     const demo::FramePlan plan{
         .technique = &renderer::findTechnique(state.technique),
@@ -273,7 +274,8 @@ int main(int argc, char** argv) {
         demo::keyHelp()};
     Options options;
     options.command.assign(argv, argv + argc);
-    app.add_option("--scene", options.scene, "built-in scene (see --list-scenes); default: yard");
+    app.add_option("--scene", options.scene, "built-in scene (see --list-scenes), NAME:triangles=COUNT for one with more\n"
+                   "triangles, or a model file (glTF, OBJ, PLY, ...); default: yard");
     app.add_option("--technique", options.technique,
                    "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,

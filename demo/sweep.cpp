@@ -154,6 +154,9 @@ class Sweep {
             frame_ = std::make_unique<renderer::Renderer>(info_, renderer::makeScene(unit.scene),
                                                           settings_.widthPx, settings_.heightPx);
             start_ = frame_->scene();
+            // A window narrowed to the view holds its extent from the frames before, and shards and
+            // resumed runs come from others.
+            frame_->setWindowFit(renderer::WindowFit::casters);
         }
         const PathView view = pathView(start_, unit.frame, settings_.frames);
         frame_->setCamera(view.camera);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "demo/demand_glsl.h"
+#include "renderer/scene_file.h"
 
 namespace demo {
 namespace {
@@ -14,6 +15,20 @@ const ViewerState& checked(const ViewerState& state) {
     return state;
 }
 
+/// The softness, in a window that has room for it. A radius given as a share of the window widens
+/// with it, so the window is fitted again, twice at most: its extent grows in steps.
+Softness fittedSoftness(renderer::Renderer& frame, const ViewerState& state) {
+    Softness softness = chooseSoftness(frame, state.radiusM, state.radiusUv);
+    for (int i = 0; i < 3; ++i) {
+        frame.setReach(renderer::kReachOfSoftness * softness.radiusM);
+        const Softness again = chooseSoftness(frame, state.radiusM, state.radiusUv);
+        const bool same = again.radiusUv == softness.radiusUv && again.radiusM == softness.radiusM;
+        softness = again;
+        if (same) break;
+    }
+    return softness;
+}
+
 }  // namespace
 
 Viewer::Viewer(const renderer::GlInfo& info, const ViewerState& state,
@@ -22,7 +37,7 @@ Viewer::Viewer(const renderer::GlInfo& info, const ViewerState& state,
     : info_(info),
       slopeFile_(std::move(slopeFile)),
       state_(checked(state)),
-      frame_(info, renderer::makeScene(state.scene), widthPx, heightPx, shaders),
+      frame_(info, renderer::openScene(state.scene), widthPx, heightPx, shaders),
       view_(shaders, kDemandGlsl) {
     sceneCamera_ = frame_.scene().camera;
     sceneSun_ = frame_.scene().sun;
@@ -60,7 +75,7 @@ void Viewer::apply(const ViewerState& state) {
         slopeFor_ = state.audience;
     }
     if (state.scene != frame_.scene().source) {
-        renderer::Scene scene = renderer::makeScene(state.scene);
+        renderer::Scene scene = renderer::openScene(state.scene);
         sceneCamera_ = scene.camera;
         sceneSun_ = scene.sun;
         frame_.setScene(std::move(scene));
@@ -68,7 +83,7 @@ void Viewer::apply(const ViewerState& state) {
     }
     frame_.setCamera(cameraOf(state, sceneCamera_, frame_.scene().cameraPath));
     frame_.setSun(sunOf(state, sceneSun_, frame_.scene().sunPath));
-    softness_ = chooseSoftness(frame_, state.radiusM, state.radiusUv);
+    softness_ = fittedSoftness(frame_, state);
     if (run_) run_->change(settingsOf(state, state.resolution));
 }
 
@@ -100,7 +115,7 @@ int Viewer::settle() {
 
 void Viewer::drawOther() {
     if (!otherFrame_)
-        otherFrame_ = std::make_unique<renderer::Renderer>(info_, renderer::makeScene(state_.scene),
+        otherFrame_ = std::make_unique<renderer::Renderer>(info_, frame_.scene(),
                                                            frame_.widthPx(), frame_.heightPx(),
                                                            frame_.shaders());
     const bool sameSize =
@@ -108,9 +123,10 @@ void Viewer::drawOther() {
     if (otherShows_ == state_ && sameSize) return;  // a still view: it is often the slower frame
     otherFrame_->resize(frame_.widthPx(), frame_.heightPx());
     if (otherFrame_->scene().source != state_.scene)
-        otherFrame_->setScene(renderer::makeScene(state_.scene));
+        otherFrame_->setScene(frame_.scene());
     otherFrame_->setCamera(frame_.scene().camera);
     otherFrame_->setSun(frame_.scene().sun);
+    otherFrame_->setWindow(frame_.window());
     const ShadowRun::Settings settings = settingsOf(state_, state_.compareWith);
     if (!otherRun_) otherRun_ = std::make_unique<ShadowRun>(*otherFrame_, info_, settings);
     otherRun_->change(settings);

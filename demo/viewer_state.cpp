@@ -10,6 +10,7 @@
 #include "records/json_document.h"
 #include "records/json_fields.h"
 #include "records/whole_file.h"
+#include "renderer/scene_file.h"
 
 namespace demo {
 namespace {
@@ -104,7 +105,7 @@ void readParameters(const records::JsonFields& fields, const std::string& where,
 std::string validate(const ViewerState& state) {
     try {
         renderer::findTechnique(state.technique);
-        renderer::findScene(state.scene);
+        if (!renderer::isModelFile(state.scene)) renderer::findScene(state.scene);
     } catch (const std::invalid_argument& error) {
         return error.what();
     }

@@ -36,6 +36,14 @@ class PassScope {
     throw std::invalid_argument("frame settings: " + name + " is " + value + ", must be " + rule);
 }
 
+float nearestSeenM(const OrbitCamera& camera) {
+    return 0.02F * camera.distanceM;
+}
+
+float farthestSeenM(const OrbitCamera& camera) {
+    return std::max(200.0F, 40 * camera.distanceM);
+}
+
 void checkUnit(const std::string& name, float value) {
     if (!(value >= 0 && value <= 1)) rejectSetting(name, std::to_string(value), "in [0, 1]");
 }
@@ -132,19 +140,52 @@ Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
 }
 
 void Renderer::setScene(Scene scene) {
-    window_ = fitShadowWindow(scene.casters, scene.sun);
+    fitShadowWindow(scene.casters, scene.sun);  // throws for a scene that has none
     depthCounter_.forget();
     scene_ = std::move(scene);
+    reachM_ = kReachOfSoftness * scene_.softnessM;
+    windowStep_.reset();
+    fitWindow();
     uploadScene();
 }
 
 void Renderer::setCamera(const OrbitCamera& camera) {
     scene_.camera = camera;
+    fitWindow();
 }
 
 void Renderer::setSun(const Sun& sun) {
-    window_ = fitShadowWindow(scene_.casters, sun);
+    fitShadowWindow(scene_.casters, sun);  // throws for a sun that gives no light
     scene_.sun = sun;
+    fitWindow();
+}
+
+void Renderer::setWindowFit(WindowFit fit) {
+    windowFit_ = fit;
+    fitWindow();
+}
+
+void Renderer::setReach(double reachM) {
+    if (!(reachM >= 0) || !std::isfinite(reachM))
+        throw std::invalid_argument("kernel reach is " + std::to_string(reachM) +
+                                    " m, must be finite and at least 0");
+    reachM_ = reachM;
+    fitWindow();
+}
+
+void Renderer::setWindow(const ShadowWindow& window) {
+    fitted_ = window_ = window;
+}
+
+void Renderer::fitWindow() {
+    fitted_ = fitShadowWindow(scene_.casters, scene_.sun);
+    if (windowFit_ == WindowFit::view && widthPx_ > 0)
+        fitted_ = narrowShadowWindow(
+            fitted_, scene_.casters,
+            viewVolume(scene_.camera, static_cast<double>(widthPx_) / heightPx_,
+                       nearestSeenM(scene_.camera), farthestSeenM(scene_.camera)),
+            reachM_, windowStep_);
+    window_ = fitted_;
 }
 
 void Renderer::uploadScene() {
@@ -201,6 +242,7 @@ void Renderer::resize(int widthPx, int heightPx) {
     widthPx_ = widthPx;
     heightPx_ = heightPx;
     lastTechnique_ = nullptr;
+    fitWindow();
 }
 
 std::optional<Renderer::Outputs> Renderer::outputs() const {
@@ -269,8 +311,8 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     const float pixel = 2 * std::tan(verticalField / 2) / height;
 
     view_.clipFromEyeRelative =
-        glm::perspectiveRH_ZO(verticalField, width / height, 0.02F * camera.distanceM,
-                              std::max(200.0F, 40 * camera.distanceM)) *
+        glm::perspectiveRH_ZO(verticalField, width / height, nearestSeenM(camera),
+                              farthestSeenM(camera)) *
         glm::lookAtRH(glm::vec3(0), forward, glm::vec3(0, 1, 0));
     view_.eye = glm::vec4(eye, 0);
     view_.pixelRight = glm::vec4(right * pixel, 0);
@@ -278,6 +320,7 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     view_.forward = glm::vec4(forward, 0);
     view_.viewport = {width, height, 1 / width, 1 / height};
 
+    window_ = snapToTexels(fitted_, settings.resolution);
     const glm::dmat4 fromEyeRelative =
         window_.shadowFromWorld * glm::translate(glm::dmat4(1), glm::dvec3(eye));
     const Technique& technique =

@@ -26,6 +26,13 @@
 
 namespace renderer {
 
+/// What a light's map covers: all casters, or of them what throws shadows into the view.
+enum class WindowFit { casters, view };
+
+/// Room around a window narrowed to the view, in softnesses: a kernel that grows with the distance
+/// of its casters, as that of PCSS, gets this wide.
+inline constexpr double kReachOfSoftness = 4;
+
 struct FrameSettings {
     const Technique* technique = nullptr;            ///< null: the table's first
     std::optional<ParameterValues> parameters = {};  ///< absent: the technique's defaults
@@ -63,12 +70,21 @@ class Renderer {
     void resize(int widthPx, int heightPx);
     void setCamera(const OrbitCamera& camera);
     void setSun(const Sun& sun);
+    /// What the map's window is fitted to, from the next camera, sun or size on.
+    void setWindowFit(WindowFit fit);
+    /// How far across the light the widest kernel reads, m, so that a window narrowed to what is
+    /// seen has room for it; at first kReachOfSoftness times the scene's softness.
+    void setReach(double reachM);
+    /// The window of another view of the same scene under the same light, to compare the two; until
+    /// camera, sun, size, fit or reach change.
+    void setWindow(const ShadowWindow& window);
     /// From now on the map's texture has at least this edge, and a smaller N takes a sub-rectangle
     /// of it; 0 (the default) makes the texture anew whenever N changes, exactly as large as the
     /// map.
     void reserveMap(int edge);
 
     const Scene& scene() const { return scene_; }
+    /// As the last frame had it; its extent is already that of the next one.
     const ShadowWindow& window() const { return window_; }
     int widthPx() const { return widthPx_; }
     int heightPx() const { return heightPx_; }
@@ -117,6 +133,7 @@ class Renderer {
         std::size_t firstIndex = 0;
     };
 
+    void fitWindow();
     void uploadScene();
     void updateConstants(const FrameSettings& settings);
     void ensureMap(int resolution);
@@ -134,6 +151,10 @@ class Renderer {
     GlInfo info_;
     ShaderLibrary shaders_;
     Scene scene_;
+    WindowFit windowFit_ = WindowFit::view;
+    double reachM_ = 0;
+    std::optional<int> windowStep_;  // extent of the window before
+    ShadowWindow fitted_;            // before it is moved to the texel grid
     ShadowWindow window_;
     int widthPx_ = 0;
     int heightPx_ = 0;

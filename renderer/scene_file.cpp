@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene_file.h"
+
+#include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <stdexcept>
+
+#include "renderer/scenes/scenes.h"
+
+namespace renderer {
+namespace {
+
+constexpr Material kPlain{.albedo = {0.50F, 0.47F, 0.43F}, .gloss = 0.15F};
+/// Of the model's size, chosen by eye: the built-in scenes have about as much.
+constexpr double kSoftnessOfSize = 0.012;
+constexpr std::size_t kMostTriangles = 50'000'000;
+
+[[noreturn]] void reject(const std::filesystem::path& file, const std::string& problem) {
+    throw std::runtime_error(file.string() + ": " + problem);
+}
+
+bool isFinite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+glm::vec3 toGlm(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+Material materialOf(const aiScene& model, const aiMesh& mesh) {
+    aiColor4D colour;
+    if (mesh.mMaterialIndex >= model.mNumMaterials) return kPlain;
+    const aiMaterial& own = *model.mMaterials[mesh.mMaterialIndex];
+    if (own.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS &&
+        own.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != aiReturn_SUCCESS)
+        return kPlain;
+    Material material = kPlain;
+    // A black or dazzling surface would show no shadows.
+    material.albedo = glm::clamp(glm::vec3(colour.r, colour.g, colour.b), 0.05F, 0.8F);
+    return isFinite(material.albedo) ? material : kPlain;
+}
+
+/// Its triangles; Assimp has made them of whatever the file holds.
+Mesh meshOf(const std::filesystem::path& file, const aiMesh& own) {
+    Mesh mesh;
+    mesh.vertices.reserve(own.mNumVertices);
+    for (unsigned i = 0; i < own.mNumVertices; ++i) {
+        const glm::vec3 position = toGlm(own.mVertices[i]);
+        if (!isFinite(position))
+            reject(file, "mesh \"" + std::string(own.mName.C_Str()) + "\", vertex " +
+                             std::to_string(i) + ": a coordinate is not a finite number");
+        const glm::vec3 normal =
+            own.HasNormals() ? glm::normalize(toGlm(own.mNormals[i])) : glm::vec3(0);
+        // Corners of triangles without an area have none.
+        mesh.vertices.push_back(
+            {position, isFinite(normal) && glm::length(normal) > 0.5F ? normal : glm::vec3(0, 1, 0)});
+    }
+    for (unsigned i = 0; i < own.mNumFaces; ++i) {
+        const aiFace& face = own.mFaces[i];
+        if (face.mNumIndices != 3) continue;  // points and lines throw no shadow
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            if (face.mIndices[corner] >= own.mNumVertices)
+                reject(file, "mesh \"" + std::string(own.mName.C_Str()) + "\", triangle " +
+                                 std::to_string(i) + ": vertex " +
+                                 std::to_string(face.mIndices[corner]) + " does not exist");
+            mesh.indices.push_back(face.mIndices[corner]);
+        }
+    }
+    return mesh;
+}
+
+/// Fit for the name of a picture's file.
+std::string plainName(const std::filesystem::path& file) {
+    std::string name = file.stem().string();
+    for (char& letter : name)
+        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
+    return name.empty() ? "model" : name;
+}
+
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+    return text.empty() ? "not readable as a model" : text;
+}
+
+std::vector<SceneObject> objectsOf(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) reject(file, "no such model file");
+    if (!std::filesystem::is_regular_file(status)) reject(file, "is not a file");
+    if (std::filesystem::file_size(file, error) == 0 && !error) reject(file, "is empty");
+
+    Assimp::Importer importer;
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene* model = importer.ReadFile(
+        file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_SortByPType |
+                           aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
+    if (model == nullptr) reject(file, oneLine(importer.GetErrorString()));
+
+    std::vector<SceneObject> objects;
+    std::size_t triangles = 0;
+    for (unsigned i = 0; i < model->mNumMeshes; ++i) {
+        const aiMesh& own = *model->mMeshes[i];
+        Mesh mesh = meshOf(file, own);
+        triangles += mesh.indices.size() / 3;
+        if (triangles > kMostTriangles)
+            reject(file, "holds more than " + std::to_string(kMostTriangles) + " triangles");
+        if (!mesh.indices.empty())
+            objects.push_back({own.mName.C_Str(), std::move(mesh), materialOf(*model, own)});
+    }
+    if (objects.empty()) reject(file, "holds no triangles");
+    return objects;
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& file) {
+    Scene scene;
+    scene.name = plainName(file);
+    scene.source = file.string();
+    scene.objects = objectsOf(file);
+    Bounds own = boundsOf(scene.objects.front().mesh);
+    for (const SceneObject& object : scene.objects) {
+        const Bounds bounds = boundsOf(object.mesh);
+        own.low = glm::min(own.low, bounds.low);
+        own.high = glm::max(own.high, bounds.high);
+    }
+    const glm::dvec3 low(own.low);
+    const glm::dvec3 span = glm::dvec3(own.high) - low;
+    const double longest = std::max({span.x, span.y, span.z});
+    const double scale = kModelSizeM / longest;
+    if (!(longest > 0) || !std::isfinite(scale))
+        reject(scene.source, "all of its triangles lie in one point");
+    const glm::dvec3 foot = low + 0.5 * glm::dvec3(span.x, 0, span.z);
+    for (SceneObject& object : scene.objects)
+        for (Vertex& vertex : object.mesh.vertices)
+            vertex.position = glm::vec3(scale * (glm::dvec3(vertex.position) - foot));
+
+    scene.objects.insert(scene.objects.begin(), paving());
+    scene.casters = casterBounds(scene.objects);
+    const glm::vec3 size(scale * span);
+    // The bounds' sphere and some of the shadow beside it.
+    const float radius = 0.5F * glm::length(size);
+    scene.camera = {.target = {0, 0.42F * size.y, 0},
+                    .yawDeg = 28,
+                    .pitchDeg = 22,
+                    .distanceM = 1.25F * radius / std::sin(glm::radians(20.0F)),
+                    .verticalFieldDeg = 40};
+    scene.sun = {.azimuthDeg = 100, .elevationDeg = 48};
+    scene.sunPath = {.turnDeg = 360, .elevationSwingDeg = 10};
+    scene.softnessM = kSoftnessOfSize * kModelSizeM;
+    return scene;
+}
+
+bool isModelFile(std::string_view source) {
+    const std::string_view name = source.substr(0, source.find(':'));
+    const auto scenes = builtInScenes();
+    const bool builtIn = std::any_of(scenes.begin(), scenes.end(),
+                                     [&](const SceneEntry& entry) { return entry.name == name; });
+    return !builtIn && source.find_first_of("./") != std::string_view::npos;
+}
+
+Scene openScene(std::string_view source) {
+    return isModelFile(source) ? loadScene(std::filesystem::path(source)) : makeScene(source);
+}
+
+}  // namespace renderer

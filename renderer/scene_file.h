@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Models from files as scenes: whatever Assimp reads (glTF, OBJ, PLY and more), put on a ground,
+// with a camera, a light and a softness that suit its size. Geometry and plain colours alone: no
+// textures, bones or lights of the file's own.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "renderer/scene.h"
+
+namespace renderer {
+
+/// The longest edge of a model's bounds as it stands in the scene, m: files do not say their unit.
+inline constexpr float kModelSizeM = 3;
+
+/// Throws std::runtime_error that names the file and what is wrong with it: missing, not a file, not
+/// readable as a model, without triangles, or with corners that are no numbers or all in one place.
+Scene loadScene(const std::filesystem::path& file);
+
+/// Whether a source has a dot or a slash and is no built-in scene's name.
+bool isModelFile(std::string_view source);
+
+/// A built-in scene as makeScene() takes it, or a model file.
+Scene openScene(std::string_view source);
+
+}  // namespace renderer

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/temporary_folder.h"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+/// A wedge of the given size far from the origin, as OBJ: a quad, two triangles, one without
+/// normals.
+const char* const kObj = R"(# a wedge
+v 1000 50 7
+v 1004 50 7
+v 1004 50 9
+v 1000 50 9
+v 1000 52 9
+f 1 2 3 4
+f 1 2 5
+f 2 3 5
+)";
+
+const char* const kPly = R"(ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+element face 2
+property list uchar int vertex_indices
+end_header
+0 0 0
+0.002 0 0
+0 0.004 0
+0 0 0.001
+3 0 1 2
+3 0 2 3
+)";
+
+/// One triangle (0,0,0) (1,0,0) (0,2,0), its node scaled by 10 along x, its colour red.
+const char* const kGltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+"nodes": [{"mesh": 0, "scale": [10, 1, 1]}],
+"materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.7, 0.1, 0.2, 1]}}],
+"meshes": [{"name": "sail", "primitives": [{"attributes": {"POSITION": 1}, "indices": 0, "material": 0}]}],
+"buffers": [{"byteLength": 44, "uri":
+"data:application/octet-stream;base64,AAABAAIAAAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAAAAQAAAAAA="}],
+"bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 6, "target": 34963},
+                {"buffer": 0, "byteOffset": 8, "byteLength": 36, "target": 34962}],
+"accessors": [{"bufferView": 0, "componentType": 5123, "count": 3, "type": "SCALAR", "max": [2], "min": [0]},
+              {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3", "max": [1, 2, 0], "min": [0, 0, 0]}]}
+)";
+
+class SceneFile : public testing::Test {
+  protected:
+    std::filesystem::path written(const std::string& name, const std::string& text) {
+        std::ofstream(folder_.path() / name, std::ios::binary) << text;
+        return folder_.path() / name;
+    }
+    std::string refusal(const std::filesystem::path& file) {
+        try {
+            renderer::loadScene(file);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "accepted";
+    }
+    const tests::TemporaryFolder folder_;
+};
+
+/// On the ground, in the middle, of the promised size, with normals and a window that can be made.
+void expectStandsWell(const renderer::Scene& scene, std::size_t triangles) {
+    EXPECT_EQ(casterTriangles(scene), triangles);
+    const glm::vec3 span = scene.casters.high - scene.casters.low;
+    EXPECT_NEAR(std::max({span.x, span.y, span.z}), renderer::kModelSizeM, 1e-4);
+    EXPECT_NEAR(scene.casters.low.y, 0, 1e-5);
+    EXPECT_NEAR(scene.casters.low.x, -scene.casters.high.x, 1e-4);
+    EXPECT_NEAR(scene.casters.low.z, -scene.casters.high.z, 1e-4);
+    EXPECT_GT(scene.softnessM, 0);
+    EXPECT_FALSE(scene.objects.front().casts) << "there is a ground under it";
+    for (const renderer::SceneObject& object : scene.objects)
+        for (const renderer::Vertex& vertex : object.mesh.vertices)
+            EXPECT_NEAR(glm::length(vertex.normal), 1, 1e-4) << object.name;
+    const glm::vec3 eye = scene.camera.eye();
+    EXPECT_GT(glm::distance(eye, 0.5F * (scene.casters.low + scene.casters.high)),
+              0.5F * glm::length(span))
+        << "the camera is outside";
+}
+
+TEST_F(SceneFile, ReadsObjPlyAndGltf) {
+    const renderer::Scene obj = renderer::loadScene(written("a wedge.obj", kObj));
+    expectStandsWell(obj, 4);
+    EXPECT_EQ(obj.name, "a_wedge");
+    EXPECT_EQ(obj.source, (folder_.path() / "a wedge.obj").string());
+    expectStandsWell(renderer::loadScene(written("sliver.ply", kPly)), 2);
+    const renderer::Scene gltf = renderer::loadScene(written("sail.gltf", kGltf));
+    expectStandsWell(gltf, 1);
+    const glm::vec3 span = gltf.casters.high - gltf.casters.low;
+    EXPECT_NEAR(span.x / span.y, 5, 1e-3) << "the node's scale counts";
+    EXPECT_NEAR(gltf.objects.back().material.albedo.r, 0.7, 1e-3);
+    EXPECT_NEAR(gltf.objects.back().material.albedo.g, 0.1, 1e-3);
+}
+
+TEST_F(SceneFile, NamesFileAndFaultInOneLine) {
+    const std::pair<std::filesystem::path, const char*> bad[] = {
+        {folder_.path() / "missing.obj", "no such model file"},
+        {folder_.path(), "is not a file"},
+        {written("empty.ply", ""), "is empty"},
+        {written("noise.gltf", "{\"asset\""), ""},
+        {written("cut.gltf", std::string(kGltf).substr(0, 700)), ""},
+        {written("prose.xyz", "no model at all"), ""},
+        {written("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), ""},
+        {written("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), ""},
+        {written("beyond.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), ""},
+        {written("point.obj", "v 3 3 3\nv 3 3 3\nv 3 3 3\nf 1 2 3\n"), "lie in one point"},
+        {written("nan.ply", std::string(kPly).replace(std::string(kPly).find("0.002"), 5, "nan")),
+         ""},
+    };
+    for (const auto& [file, fault] : bad) {
+        const std::string message = refusal(file);
+        EXPECT_THAT(message, StartsWith(file.string() + ": ")) << file;
+        EXPECT_THAT(message, HasSubstr(fault)) << file;
+        EXPECT_THAT(message, Not(HasSubstr("\n"))) << file;
+        EXPECT_GT(message.size(), file.string().size() + 5) << message;
+    }
+}
+
+TEST_F(SceneFile, AScenesNameGoesBeforeAFile) {
+    EXPECT_EQ(renderer::openScene("yard").name, "yard");
+    EXPECT_EQ(renderer::openScene("city:triangles=9000").source, "city:triangles=9000");
+    EXPECT_EQ(renderer::openScene(written("x.obj", kObj).string()).name, "x");
+    EXPECT_THROW(renderer::openScene("gardn"), std::invalid_argument);
+    EXPECT_THROW(renderer::openScene("./yard"), std::runtime_error) << "a path, and not there";
+}
+
+}  // namespace
