@@ -21,14 +21,14 @@ float levelsOfKernel(float radiusTexels) {
     return std::ceil(std::log2(std::max(radiusTexels, 1.0F)));
 }
 
-/// Units that make 1 in a summed map: as many as still let the sum under the
-/// widest box, with the texels that it touches on both sides, be told modulo
-/// 2^32; a power of two, so that float32 scales without rounding, of at most
-/// its 24 bits.
+/// Units that make 1 in a summed map: as many as still let the sum under the widest box, with the
+/// texels that it touches on both sides, be told modulo 2^32. A power of two, so that float32
+/// scales without rounding, of at most 2^23, below which it still holds the half that rounding
+/// adds.
 float summedUnits(float reachTexels) {
     const double edge = 2.0 * static_cast<double>(reachTexels) + 2;
     return static_cast<float>(
-        std::exp2(std::min(std::floor(std::log2(0x1p32 / (edge * edge)) - 1e-9), 24.0)));
+        std::exp2(std::min(std::floor(std::log2(0x1p32 / (edge * edge)) - 1e-9), 23.0)));
 }
 
 }  // namespace
@@ -41,8 +41,8 @@ glm::vec4 prefilterConstants(const Technique& technique, const ParameterValues& 
         return slot ? parameters[*slot] : absent;
     };
     const float least = fraction(minRadiusUv);
-    // Of the widest kernel, where a lookup chooses: a blocker may lie as far
-    // before it as the light.
+    // Of the widest kernel, where a lookup chooses: a blocker may lie as far before it as the
+    // light.
     const float radius =
         technique.prefilter == Prefilter::converted
             ? 0
