@@ -70,23 +70,72 @@ struct Distribution {
     }
 };
 
-Distribution underTheBox(const Situation& s) {
-    const Wide reach = boxReach(s.constants);
+/// The depth of the caster in a texel; nothing is in the way outside the map.
+Wide casterAt(const Situation& s, int column, int row) {
+    return s.inside(column, row) ? caster(s.stored(column, row)) : 1;
+}
+
+/// Of a box that reaches so far, in texels, to either side of the middle of a texel.
+Distribution underTheBox(const Situation& s, Wide reach, int column, int row) {
     const auto share = [&](int i) {  // of the box, in a texel so far from its middle
         if (reach <= 0.5L) return static_cast<Wide>(i == 0);
         return std::max(std::min(i + 0.5L, reach) - std::max(i - 0.5L, -reach), 0.0L) / (2 * reach);
     };
-    const int middle = s.map.edge / 2;
     const int far = static_cast<int>(std::ceil(reach)) + 1;
     Distribution all;
     for (int j = -far; j <= far; ++j)
         for (int i = -far; i <= far; ++i) {
             const Wide weight = share(i) * share(j);
             if (weight == 0) continue;
-            const bool on = s.inside(middle + i, middle + j);
-            all.depths.push_back(on ? caster(s.stored(middle + i, middle + j)) : 1);
+            all.depths.push_back(casterAt(s, column + i, row + j));
             all.weights.push_back(weight);
         }
+    return all;
+}
+
+Distribution underTheBox(const Situation& s, Wide reach) {
+    return underTheBox(s, reach, s.map.edge / 2, s.map.edge / 2);
+}
+
+void add(Distribution& all, const Distribution& part, Wide weight) {
+    for (std::size_t i = 0; i < part.depths.size(); ++i) {
+        all.depths.push_back(part.depths[i]);
+        all.weights.push_back(weight * part.weights[i]);
+    }
+}
+
+/// A place's four nearest texels with their bilinear weights.
+template <class Visit>
+void nearestFour(Wide x, Wide y, const Visit& visit) {
+    const int column = static_cast<int>(std::floor(x - 0.5L));
+    const int row = static_cast<int>(std::floor(y - 0.5L));
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i)
+            visit(column + i, row + j,
+                  (1 - std::abs(x - 0.5L - column - i)) * (1 - std::abs(y - 0.5L - row - j)));
+}
+
+/// Of the mip level whose texels are as large as the radius, between the levels and texels around
+/// it. Levels are counted from the corner of the map's texture, which lies in the guard band.
+Distribution underTheMips(const Situation& s, Wide radiusUv) {
+    const Wide texels = std::max(radiusUv * s.map.edge, static_cast<Wide>(1));
+    const Wide level = std::min(std::log2(texels), -static_cast<Wide>(s.constants.prefilter.w));
+    const int guard = static_cast<int>(s.constants.prefilter.z);
+    Distribution all;
+    for (const int of : {static_cast<int>(level), static_cast<int>(level) + 1}) {
+        const Wide share = 1 - std::abs(level - of);
+        if (share <= 0) continue;
+        const int size = 1 << of;
+        const Wide centre = (0.5L * s.map.edge + guard) / size;
+        nearestFour(centre, centre, [&](int column, int row, Wide weight) {
+            for (int j = 0; j < size; ++j)
+                for (int i = 0; i < size; ++i) {
+                    all.depths.push_back(
+                        casterAt(s, column * size + i - guard, row * size + j - guard));
+                    all.weights.push_back(share * weight / (static_cast<Wide>(size) * size));
+                }
+        });
+    }
     return all;
 }
 
@@ -104,6 +153,45 @@ Wide variance(const Situation& s, const Distribution& all, Wide depth) {
     const auto z = [](Wide x) { return x; };
     return withoutBleeding(
         s, chebyshev(all.mean(z), std::max(all.variance(z), s.parameter("least_variance")), depth));
+}
+
+/// The mean of the bound over boxes side by side, each against the receiver's plane in its middle.
+Wide sampledVariance(const Situation& s, Wide depth) {
+    const int samples = static_cast<int>(s.parameter("samples"));
+    const Wide reach = boxReach(s.constants);
+    const Wide middle = 0.5L * s.map.edge;
+    const auto z = [](Wide x) { return x; };
+    Wide sum = 0;
+    for (int row = 0; row < samples; ++row)
+        for (int column = 0; column < samples; ++column) {
+            const Wide x = (2 * column + 1 - samples) * reach;
+            const Wide y = (2 * row + 1 - samples) * reach;
+            Distribution all;
+            nearestFour(middle + x, middle + y, [&](int i, int j, Wide weight) {
+                add(all, underTheBox(s, reach, i, j), weight);
+            });
+            const Wide there = std::min(depth + (x * s.receiver.depthGradient.x +
+                                                 y * s.receiver.depthGradient.y) /
+                                                    s.map.edge,
+                                        static_cast<Wide>(1));
+            sum += chebyshev(all.mean(z), std::max(all.variance(z), s.parameter("least_variance")),
+                             there);
+        }
+    return withoutBleeding(s, sum / (samples * samples));
+}
+
+/// The sun's penumbra from the blockers' mean under the widest kernel, which Chebyshev's bound
+/// tells apart from the receiver.
+Wide varianceSoftShadow(const Situation& s, Wide depth,
+                        const std::function<Distribution(Wide radiusUv)>& under) {
+    const Wide softness = static_cast<Wide>(s.constants.kernel.x) / s.parameter("distance");
+    const Distribution around = under(std::min(softness, static_cast<Wide>(1)));
+    const auto z = [](Wide x) { return x; };
+    const Wide beyond = depth - around.mean(z);
+    Wide gap = 0;
+    if (beyond > 0)
+        gap = unit(beyond + std::max(around.variance(z), s.parameter("least_variance")) / beyond);
+    return variance(s, under(std::min(softness * gap, static_cast<Wide>(1))), depth);
 }
 
 Wide exponential(const Situation& s, const Distribution& all, Wide depth) {
@@ -212,7 +300,7 @@ Wide powerFunction(const Situation& s, const Distribution& all, Wide depth) {
 }
 
 std::optional<Wide> filteredVisibility(const Situation& s) {
-    const Distribution all = underTheBox(s);
+    const Distribution all = underTheBox(s, boxReach(s.constants));
     // Texel centres to either side that the box touches, and one that the lookup between texels
     // adds.
     const Wide farthest = std::ceil(std::max(boxReach(s.constants) - 0.5L, 0.0L)) + 1;
@@ -221,7 +309,20 @@ std::optional<Wide> filteredVisibility(const Situation& s) {
                        s.receiver.depthError - s.parameterOr("bias_depth", 0) -
                        span * s.steepness() / s.map.edge;
     const std::string_view file = s.technique.fileName();
-    if (file == "vsm") return variance(s, all, depth);
+    if (file == "vsm" || file == "vsm_sat") return variance(s, all, depth);
+    if (file == "vsm_samples") return sampledVariance(s, depth);
+    if (file == "vsm_mip") {
+        // No sharper than a pixel sees; the receiver's pixel is as long as wide.
+        const Wide pixel = glm::length(s.receiver.longestStep) * s.constants.kernel.z;
+        const Wide radius = 2 * static_cast<Wide>(s.constants.prefilter.x) / s.map.edge;
+        return variance(s, underTheMips(s, std::max(radius, pixel)), depth);
+    }
+    if (file == "pcss_mip")
+        return varianceSoftShadow(s, depth, [&](Wide radius) { return underTheMips(s, radius); });
+    if (file == "pcss_sat")
+        return varianceSoftShadow(s, depth, [&](Wide radius) {
+            return underTheBox(s, radius * std::numbers::sqrt3_v<Wide> / 2 * s.map.edge);
+        });
     if (file == "esm") return exponential(s, all, depth);
     if (file == "evsm2") return warped(s, all, depth, s.parameter("positive_exponent"));
     if (file == "evsm4")
@@ -251,15 +352,9 @@ Wide compared(const Situation& s, int column, int row) {
 using Sample = std::function<Wide(int column, int row)>;
 
 Wide bilinear(const Situation& s, Wide u, Wide v, const Sample& sample) {
-    const Wide x = u * s.map.edge - 0.5L;
-    const Wide y = v * s.map.edge - 0.5L;
-    const int column = static_cast<int>(std::floor(x));
-    const int row = static_cast<int>(std::floor(y));
     Wide sum = 0;
-    for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 2; ++i)
-            sum += (1 - std::abs(x - column - i)) * (1 - std::abs(y - row - j)) *
-                   sample(column + i, row + j);
+    nearestFour(u * s.map.edge, v * s.map.edge,
+                [&](int i, int j, Wide weight) { sum += weight * sample(i, j); });
     return sum;
 }
 
@@ -358,18 +453,14 @@ Wide softShadow(const Situation& s) {
     return disc(s, std::min(softness * gaps / blockers, static_cast<Wide>(1)));
 }
 
-/// Depth between texels; nothing is in the way outside the map.
+/// Depth between texels.
 Wide depthAt(const Situation& s, Wide u, Wide v) {
-    return bilinear(s, u, v, [&](int i, int j) {
-        return s.inside(i, j) ? caster(s.stored(i, j)) : static_cast<Wide>(1);
-    });
+    return bilinear(s, u, v, [&](int i, int j) { return casterAt(s, i, j); });
 }
 
 /// Each texel's own slope, to the neighbour that is nearer in depth, between texels.
 Place storedSlope(const Situation& s) {
-    const auto at = [&](int i, int j) {
-        return s.inside(i, j) ? caster(s.stored(i, j)) : static_cast<Wide>(1);
-    };
+    const auto at = [&](int i, int j) { return casterAt(s, i, j); };
     const auto smaller = [](Wide a, Wide b) { return std::abs(a) < std::abs(b) ? a : b; };
     const Wide u = s.receiver.uv.x;
     const Wide v = s.receiver.uv.y;

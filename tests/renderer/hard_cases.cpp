@@ -99,6 +99,7 @@ std::vector<Variant> variantsOf(const Technique& technique) {
                 {{"gradient", 1}, {"pattern", 1}, {"offsets", 0}}};
     if (file == "gsm_stored") return {{}, {{"pattern", 1}}, {{"pattern", 2}}};
     if (file == "vsm") return {{}, {{"bleeding", 0.3F}}};
+    if (file == "vsm_samples") return {{}, {{"samples", 1}}, {{"samples", 4}}};
     if (file == "lvsm") return {{}, {{"layers", 1}}, {{"layers", 16}}};
     if (file == "power_cdf") return {{}, {{"layers", 4}}, {{"layers", 16}}};
     if (file == "csm") return {{}, {{"terms", 1}, {"damping", 0}}};

@@ -21,7 +21,8 @@ using tests::Precision;
 /// What may be lost in float. 32 bits: MSM's moments of nearly one depth are noise of .03 at its
 /// bias. GSM's band of light is as wide as the map's slope: a regression over a flat map finds the
 /// rounding's slope, and between two depths 1e-6 apart the stored one is 16 of float's steps. All
-/// others lose less than 1e-4. 2 x 16 bits: 20 bits. 16 bits: a mean is off by 2^-11 in each pass,
+/// others lose less than 1e-4. Sums raise the variance's floor by two of their units, in the cases by up
+/// to a quarter of it: .024 of visibility at .0004 from a depth. 2 x 16 bits: 20 bits. 16 bits: a mean is off by 2^-11 in each pass,
 /// over the least distance of a receiver from a depth in the cases.
 double mostAsStored(const Technique& technique) {
     switch (technique.format) {
@@ -29,6 +30,8 @@ double mostAsStored(const Technique& technique) {
         case MapFormat::rgba16f:
         case MapFormat::rgba16:
             return 0.15;
+        case MapFormat::rg32ui:
+            return 0.05;
         default:
             if (technique.name == "msm") return 0.04;
             return technique.name == "gsm_stored" ? 0.03 : 0.005;
@@ -41,7 +44,8 @@ TEST(HardCases, TechniquesKeepToTheirFormulas) {
         const bool disc = technique.name == "pcf_disc" || technique.name == "pcss";
         for (const tests::Variant& variant : tests::variantsOf(technique)) {
             const tests::HardError wide = worstError(technique, Precision::doubles, variant);
-            EXPECT_LT(wide.worst, disc ? 0.001 : 1e-8)
+            const bool sums = technique.format == MapFormat::rg32ui;  // the same units in double
+            EXPECT_LT(wide.worst, disc ? 0.001 : (sums ? mostAsStored(technique) : 1e-8))
                 << technique.name << " " << tests::toText(variant) << ": " << wide.where;
             const tests::HardError stored = worstError(technique, Precision::asStored, variant);
             EXPECT_LT(stored.worst, mostAsStored(technique))
