@@ -8,12 +8,18 @@
 namespace renderer {
 namespace {
 
-constexpr TechniqueParameter kBiasTexels{
-    .name = "bias_texels",
-    .meaning = "depth bias: change of the receiver plane's depth over this many texels",
-    .low = 0,
-    .high = 4,
-    .standard = 1.0F / 32};
+constexpr TechniqueParameter biasTexels(float standard) {
+    return {.name = "bias_texels",
+            .meaning = "depth bias: change of the receiver plane's depth over this many texels",
+            .low = 0,
+            .high = 4,
+            .standard = standard};
+}
+/// A rasteriser that snaps vertices to 1/256 texel (GL_SUBPIXEL_BITS 8, as today's do) moves no
+/// point of a triangle by more; one with fewer bits needs 2^-bits. More than is needed lights
+/// hollow surfaces, which rise over a kernel by little more than the bias: 1/32 left an error of
+/// .06 RMSE in the knob at its automatic size, 1/256 leaves .02.
+constexpr TechniqueParameter kBiasTexels = biasTexels(1.0F / 256);
 constexpr TechniqueParameter kGaussian{
     .name = "gaussian",
     .meaning = "prefilter: 0 a box, 1 a Gaussian, of the disc's standard deviation",
@@ -185,11 +191,7 @@ constexpr TechniqueParameter kSampledVarianceParameters[] = {
 /// A box of any width over texels of even depth: on a slope its mean is off by
 /// up to f (1 - f) / (2 w) of a texel, w its width and f what w has beyond a
 /// whole number. A mip level's mean is exact.
-constexpr TechniqueParameter kBoxBiasTexels{.name = kBiasTexels.name,
-                                            .meaning = kBiasTexels.meaning,
-                                            .low = kBiasTexels.low,
-                                            .high = kBiasTexels.high,
-                                            .standard = 1.0F / 8};
+constexpr TechniqueParameter kBoxBiasTexels = biasTexels(1.0F / 8);
 constexpr TechniqueParameter kSummedVarianceParameters[] = {kBoxBiasTexels, kLeastVariance,
                                                             kBleeding, kDerivative};
 constexpr TechniqueParameter kMipVarianceParameters[] = {
@@ -266,8 +268,9 @@ constexpr float kMomentDarkening = 1.0F / 512;  // half an 8-bit level, of the m
 constexpr MomentParameters kMoments32 = momentParameters(0, 3e-6F);
 constexpr MomentParameters kMoments16 = momentParameters(2e-4F, 6e-5F);
 
+/// The series of few terms is steep where a plane lies, so it asks for more.
 constexpr TechniqueParameter kConvolutionParameters[] = {
-    kBiasTexels,
+    biasTexels(1.0F / 32),
     biasDepth(1e-3F),
     kGaussian,
     {.name = "terms",
