@@ -81,12 +81,25 @@ numbers_of_coverage() {
     coverage "$root/docs/results/paper16-with-catch-trials.json" --studies 200 --guessing 1
 }
 
-parts=(benchmarks window study fit bootstrap coverage)
+# docs/results/technique-times.md and technique-errors.md.
+numbers_of_techniques() {
+    "$bin/technique_times" planar_occluder 0 || die "technique_times failed"
+    "$bin/technique_times" yard 0 8 16 || die "technique_times failed"
+    "$bin/technique_errors" || die "technique_errors failed"
+}
+
+# docs/results/automatic-size.md.
+numbers_of_sizes() {
+    "$bin/size_numbers" paths || die "size_numbers failed"
+    "$bin/size_numbers" cost || die "size_numbers failed"
+}
+
+parts=(benchmarks window study fit bootstrap techniques sizes coverage)
 [ $# -eq 0 ] || parts=("$@")
 printf 'revision %s, %s, %s cores\n' "$("$bin/study_app" --version)" \
     "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)"
 for part in "${parts[@]}"; do
     declare -F "numbers_of_$part" >/dev/null ||
-        die "numbers: no part '$part': one of benchmarks, window, study, fit, bootstrap, coverage"
+        die "numbers: no part '$part': one of benchmarks, window, study, fit, bootstrap, techniques, sizes, coverage"
     "numbers_of_$part"
 done

@@ -2,7 +2,7 @@
 // Prints what the filtered techniques cost against each other and against the
 // full disc, in one interleaved run at the same softness, so that whatever else
 // the machine does falls on all of them: docs/results/technique-times.md.
-//   technique_times [WIDTH HEIGHT [ROUNDS]] >> docs/results/technique-times.md
+//   technique_times SCENE RADIUS_TEXELS... >> docs/results/technique-times.md   0: the scene's own softness
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +15,9 @@
 namespace {
 
 constexpr int kResolution = 1024;
+constexpr int kWidthPx = 1280;
+constexpr int kHeightPx = 720;
+constexpr int kRounds = 9;
 
 struct Quartiles {
     double low, median, high;
@@ -51,17 +54,18 @@ std::string ratio(const Row& row, const Row& to) {
     return text;
 }
 
-void measure(const renderer::GlInfo& info, const renderer::SceneEntry& scene, int width, int height,
-             int rounds) {
+void measure(const renderer::GlInfo& info, const char* scene, double radiusTexels) {
     using renderer::Pass;
-    renderer::Renderer frame(info, scene.make(), width, height);
-    const auto radius = static_cast<float>(frame.scene().softnessM / frame.window().extentM);
+    renderer::Renderer frame(info, renderer::makeScene(scene), kWidthPx, kHeightPx);
+    const auto radius = static_cast<float>(radiusTexels > 0
+                                               ? radiusTexels / kResolution
+                                               : frame.scene().softnessM / frame.window().extentM);
     std::vector<Row> rows;
     for (const renderer::Technique& technique : renderer::techniques())
         if (technique.name == "pcf_disc" || technique.prefilter != renderer::Prefilter::none)
             rows.push_back({&technique, {}, {}});
     renderer::PassClock clock(info);
-    for (int round = -1; round < rounds; ++round)  // the first warms up
+    for (int round = -1; round < kRounds; ++round)  // the first warms up
         for (Row& row : rows) {
             const renderer::FrameSettings settings{.technique = row.technique,
                                                    .resolution = kResolution,
@@ -89,8 +93,8 @@ void measure(const renderer::GlInfo& info, const renderer::SceneEntry& scene, in
         "| technique | depth ms | prefilter ms | lookup ms | sum ms | of "
         "pcf_disc | of vsm |\n"
         "|---|---|---|---|---|---|---|\n",
-        std::string(scene.name).c_str(), width, height, kResolution, static_cast<double>(radius),
-        static_cast<double>(radius) * kResolution, rounds);
+        scene, kWidthPx, kHeightPx, kResolution, static_cast<double>(radius),
+        static_cast<double>(radius) * kResolution, kRounds);
     for (const Row& row : rows)
         std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %s | %s |\n",
                     std::string(row.technique->name).c_str(), row.median(Pass::depth),
@@ -102,9 +106,19 @@ void measure(const renderer::GlInfo& info, const renderer::SceneEntry& scene, in
 }  // namespace
 
 int main(int argc, char** argv) {
-    const int width = argc > 2 ? std::atoi(argv[1]) : 1280;
-    const int height = argc > 2 ? std::atoi(argv[2]) : 720;
-    const int rounds = argc > 3 ? std::max(std::atoi(argv[3]), 1) : 9;
+    std::vector<double> radiiTexels;
+    for (int i = 2; i < argc; ++i) {
+        char* end = nullptr;
+        radiiTexels.push_back(std::strtod(argv[i], &end));
+        if (*end != 0 || !(radiiTexels.back() >= 0)) {
+            radiiTexels.clear();
+            break;
+        }
+    }
+    if (radiiTexels.empty()) {
+        std::fprintf(stderr, "usage: technique_times SCENE RADIUS_TEXELS...\n");
+        return 2;
+    }
     const renderer::HeadlessContext context;
     std::printf(
         "## Revision %s, %s, %s\n\n%s; %s. Depth pass, prefilter and lookup, "
@@ -118,8 +132,6 @@ int main(int argc, char** argv) {
         program::buildInfo().compiler.c_str(), context.info().renderer.c_str(),
         context.info().version.c_str(),
         std::string(renderer::PassClock(context.info()).method()).c_str());
-    for (const renderer::SceneEntry& scene : renderer::builtInScenes())
-        if (scene.name == "planar_occluder" || scene.name == "yard")
-            measure(context.info(), scene, width, height, rounds);
+    for (const double radius : radiiTexels) measure(context.info(), argv[1], radius);
     return 0;
 }
