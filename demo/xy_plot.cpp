@@ -30,22 +30,33 @@ std::string px(double value) {
 }
 
 struct Axis {
-    double low = 1, high = 10;  // whole powers of ten
+    double low = 1, high = 10;  // whole powers of ten, or 0 and 1
     double from = 0, to = 1;    // px
+    bool unit = false;
 
     void fit(double least, double most) {
+        if (unit) return;
         low = std::pow(10, std::floor(std::log10(least)));
         high = std::pow(10, std::ceil(std::log10(most)));
         if (!(high > low)) high = 10 * low;
     }
     double at(double value) const {
+        if (unit) return from + (to - from) * value;
         return from + (to - from) * std::log(value / low) / std::log(high / low);
+    }
+    bool reaches(double value) const {
+        return unit ? value >= 0 && value <= 1 : value > 0 && std::isfinite(value);
+    }
+    std::vector<double> ticks() const {
+        if (unit) return {0, 0.2, 0.4, 0.6, 0.8, 1};
+        std::vector<double> values;
+        for (double v = low; v <= high * 1.0001; v *= 10) values.push_back(v);
+        return values;
     }
 };
 
-bool drawable(const std::pair<double, double>& point) {
-    return point.first > 0 && point.second > 0 && std::isfinite(point.first) &&
-           std::isfinite(point.second);
+bool drawable(const std::pair<double, double>& point, const Axis& x, const Axis& y) {
+    return x.reaches(point.first) && y.reaches(point.second);
 }
 
 std::string textAt(double x, double y, const std::string& text, const std::string& more = "") {
@@ -59,11 +70,11 @@ std::string grid(const Axis& x, const Axis& y) {
         svg += "<path d=\"M" + px(x1) + " " + px(y1) + "L" + px(x2) + " " + px(y2) +
                "\" stroke=\"#dddddd\"/>\n";
     };
-    for (double v = x.low; v <= x.high * 1.0001; v *= 10) {
+    for (const double v : x.ticks()) {
         line(x.at(v), kTop, x.at(v), kBottom);
         svg += textAt(x.at(v), kBottom + 18, formatted("%g", v), "text-anchor=\"middle\"");
     }
-    for (double v = y.low; v <= y.high * 1.0001; v *= 10) {
+    for (const double v : y.ticks()) {
         line(kLeft, y.at(v), kRight, y.at(v));
         svg += textAt(kLeft - 6, y.at(v) + 4, formatted("%g", v), "text-anchor=\"end\"");
     }
@@ -75,7 +86,7 @@ std::string drawn(const PlotSeries& series, const Axis& x, const Axis& y,
     std::string svg;
     std::string path;
     for (const auto& point : series.points) {
-        if (!drawable(point)) continue;
+        if (!drawable(point, x, y)) continue;
         const std::string at = px(x.at(point.first)) + "\" cy=\"" + px(y.at(point.second));
         path += (path.empty() ? "M" : "L") + px(x.at(point.first)) + " " + px(y.at(point.second));
         if (!series.line) svg += "<circle cx=\"" + at + "\" r=\"3\" fill=\"" + colour + "\"/>\n";
@@ -89,13 +100,13 @@ std::string drawn(const PlotSeries& series, const Axis& x, const Axis& y,
 }  // namespace
 
 std::string plotSvg(const Plot& plot) {
-    Axis x{.from = kLeft, .to = kRight};
-    Axis y{.from = kBottom, .to = kTop};
+    Axis x{.from = kLeft, .to = kRight, .unit = plot.unitAxes};
+    Axis y{.from = kBottom, .to = kTop, .unit = plot.unitAxes};
     double least[2] = {INFINITY, INFINITY};
     double most[2] = {0, 0};
     for (const PlotSeries& series : plot.series)
         for (const auto& point : series.points) {
-            if (!drawable(point)) continue;
+            if (!drawable(point, x, y)) continue;
             least[0] = std::min(least[0], point.first);
             least[1] = std::min(least[1], point.second);
             most[0] = std::max(most[0], point.first);
