@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 # The numbers of the study's window, measured now on an X server of its own:
 #   window_numbers.sh BIN_FOLDER [PART...]    parts: start idle speed memory kills; speed:KIND for one kind alone
+#   (stair step line box gauss taps taps64 noise frames)
 # `./run numbers` runs it. A robot answers that looks at the pixels alone.
 set -uo pipefail
-cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." || exit 1
-bin=${1:?the folder of study_app}
-if [ -z "${STAIRWELL_XVFB-}" ]; then
-    STAIRWELL_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24' "$PWD/tests/study_app/window_numbers.sh" "$@"
-fi
+bin=$(realpath -e "${1:?the folder of study_app}") || exit 1
 shift
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." || exit 1
+if [ -z "${STAIRWELL_XVFB-}" ]; then
+    STAIRWELL_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24' tests/study_app/window_numbers.sh "$bin" "$@"
+fi
 [ $# -gt 0 ] || set -- start idle speed memory kills
 
 printf 'revision %s, %s, %s cores, load %s\n\n' "$("$bin/study_app" --version)" \
@@ -97,6 +98,11 @@ speeds() {
     speed taps64 '"artifact_px": [10, 30], "patterns": ["step"], "kernels": ["poisson64"]' 2 "step, 64 turned taps"
     speed noise '"artifact_px": [10, 30], "patterns": ["stair"], "noise_levels": [4], "dither": true' 2 \
         "stair, image noise and dither"
+    case " $wanted " in *" speed "* | *" speed:frames "*)
+        "$bin/shadow_demo" --write-frames "$work/pairs" --scene yard --technique pcf_disc --radius-uv 0.03 \
+            >/dev/null 2>&1 || { echo "shadow_demo failed" >&2; exit 1; } ;;
+    esac
+    speed frames '"frames": "pairs"' 1 "rendered frames of 600 x 600"
     echo
 }
 
@@ -114,8 +120,9 @@ memory() {
 
 kills() {
     printf 'a power cut at random moments:\n'
-    STAIRWELL_KILLS=${STAIRWELL_KILLS:-200} "$bin/study_window_test" --gtest_filter='WindowKills*' |
-        grep -E '^[0-9]+ kills|FAILED'
+    STAIRWELL_KILLS=${STAIRWELL_KILLS:-200} "$bin/study_window_test" --gtest_filter='WindowKills*' >"$work/kills.out" ||
+        { cat "$work/kills.out" >&2; exit 1; }
+    grep -E '^[0-9]+ kills' "$work/kills.out"
 }
 
 wanted="$*"
