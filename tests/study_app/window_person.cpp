@@ -155,6 +155,14 @@ bool WindowPerson::killed() const {
     return exitCode_ == 128 + SIGKILL;
 }
 
+bool WindowPerson::killedWithin(std::chrono::milliseconds time) {
+    const auto start = std::chrono::steady_clock::now();
+    while (running() && std::chrono::steady_clock::now() - start < time) {
+        std::this_thread::sleep_for(1ms);
+    }
+    return killed();
+}
+
 std::vector<std::string> WindowPerson::events() const {
     std::istringstream log(contentOf(log_));
     std::vector<std::string> lines;

@@ -56,6 +56,7 @@ class WindowPerson {
     /// kill() from another thread, in the middle of whatever goes on then.
     void killAfter(std::chrono::microseconds time);
     bool killed() const;  ///< and nothing else ended it
+    bool killedWithin(std::chrono::milliseconds time);
     /// The disk is full for any file of more bytes than this.
     void limitFileSize(std::uintmax_t bytes);
     int exitCode();                           ///< waits for its end, at most 30 s
