@@ -48,6 +48,10 @@ struct RadiusLimits {
     bool operator==(const RadiusLimits&) const = default;
 };
 
+/// Share of a staircase's trials that the display cannot show as proposed above which its threshold
+/// is a bound, not a measurement.
+inline constexpr double kLimitShare = 0.3;
+
 /// Random variation between trials, so that tilt or place cannot give the answer away. What is off
 /// stays at zero.
 struct Roving {

@@ -165,12 +165,12 @@ std::string checkText(const DesignCheck& check, const Design& design, int observ
     }
     text += aligned(rows);
     for (const ConditionCheck& c : check.conditions) {
-        if (c.beyondLimits <= kMostBeyondLimits) continue;
+        if (c.beyondLimits <= kLimitShare) continue;
         text += "warning: " + c.name +
                 formatted(
                     ": %.0f %% of the proposals cannot be shown, more than %.0f %%: the "
                     "threshold will be a bound\n",
-                    100 * c.beyondLimits, 100 * kMostBeyondLimits);
+                    100 * c.beyondLimits, 100 * kLimitShare);
     }
     return text;
 }

@@ -20,10 +20,6 @@ namespace study_app {
 
 /// Sessions that are simulated: deviations are then known to 1 / sqrt(2 * 200) = 5 %.
 inline constexpr int kCheckSessions = 200;
-/// Share of proposals beyond what is shown above which a threshold is a bound, not a measurement
-/// (the same as in session_flags.h).
-inline constexpr double kMostBeyondLimits = 0.3;
-
 struct ConditionCheck {
     std::string name;
     double c = 0;             ///< geometric mean of the thresholds, r / a
@@ -52,7 +48,7 @@ DesignCheck checkDesign(const Design& design, const SimulatedPopulation& populat
                         std::uint64_t seed, const std::function<void()>& onSession = {});
 
 /// For people: minutes and trials, a table of conditions, the slopes that `observers` of them give,
-/// and a warning where more than kMostBeyondLimits of the proposals cannot be shown. The deviation
+/// and a warning where more than kLimitShare of the proposals cannot be shown. The deviation
 /// of a slope is that of the mean over observers (two stages); the interval of a fit lies near it.
 std::string checkText(const DesignCheck& check, const Design& design, int observers);
 

@@ -10,9 +10,6 @@
 
 namespace study_app {
 
-/// Share of a staircase's trials at a display limit above which its threshold is a bound, not a
-/// measurement.
-inline constexpr double kLimitShare = 0.3;
 /// Posterior sd, log10 units, above which a staircase has not converged: its 95 % interval is then
 /// wider than a factor of 2 to either side.
 inline constexpr double kConvergedSd = 0.15;

@@ -55,7 +55,7 @@ TEST(DesignCheck, WarnsWhereTheDisplayCannotShowWhatIsAskedFor) {
     EXPECT_LT(checkDesign(narrow, {}, 5).beyondLimits, 0.1);
     narrow.radius.max = 30;
     const DesignCheck check = checkDesign(narrow, {.observerSd = 0, .conditionSd = 0}, 5);
-    EXPECT_GT(check.conditions[0].beyondLimits, study_app::kMostBeyondLimits);
+    EXPECT_GT(check.conditions[0].beyondLimits, study_app::kLimitShare);
     EXPECT_DOUBLE_EQ(check.conditions[0].mostC, 3);
     EXPECT_DOUBLE_EQ(check.conditions[0].leastC, 0.1);
     EXPECT_THAT(checkText(check, narrow, 10),
