@@ -273,6 +273,9 @@ bool StudyWindow::panelMayBeDrawn(double now) const {
 
 void StudyWindow::draw() {
     const double now = Window::now();
+    if (state_.answering() && state_.runner->stimulusDue(now) && !state_.runner->prepareImages()) {
+        pause("The next trial cannot be shown. " + state_.runner->problem(), true);
+    }
     const bool stimuli = state_.answering();
     const bool newStimulus = stimuli && state_.runner->stimulusDue(now);
     // While a stimulus is on, the picture on screen stays as it is: mouse and idle wake-ups cost

@@ -37,9 +37,9 @@ Response responseFor(Side side, Task task) {
 std::string toText(const Latency& l) {
     char text[160];
     std::snprintf(text, sizeof text,
-                  "answer to next stimulus, less the intended pause: %zu trials, median %.1f ms, "
+                  "answer to next stimulus, less the intended pause: %zu trial%s, median %.1f ms, "
                   "p99 %.1f ms, largest %.1f ms",
-                  l.trials, 1e3 * l.median, 1e3 * l.p99, 1e3 * l.largest);
+                  l.trials, l.trials == 1 ? "" : "s", 1e3 * l.median, 1e3 * l.p99, 1e3 * l.largest);
     return text;
 }
 
@@ -222,6 +222,17 @@ records::Trial SessionRunner::trial() const {
 const TrialImages& SessionRunner::images() {
     if (!images_) images_ = prefetcher_.take(trial());
     return *images_;
+}
+
+bool SessionRunner::prepareImages() {
+    try {
+        images();
+        return true;
+    } catch (const std::runtime_error& error) {
+        problem_ = error.what();
+        clock_.stop();
+        return false;
+    }
 }
 
 /// Goes on from what is on disk. A session that is not there any more is not begun anew.

@@ -41,6 +41,7 @@ void StimulusPrefetcher::request(std::vector<Trial> trials) {
     const std::scoped_lock lock(mutex_);
     jobs_.remove_if([&](const Job& job) {
         const bool wanted = std::ranges::find(trials, job.trial) != trials.end();
+        if (job.error) return true;  // a picture that was missing may be back
         return !wanted && (job.done || !job.begun);
     });
     for (Trial& trial : trials) {

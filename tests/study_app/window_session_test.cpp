@@ -187,6 +187,35 @@ TEST_F(WindowSession, PausesQuitsAndResumesWhereItWas) {
     EXPECT_TRUE(study_app::replayTable(table()).session.finished());
 }
 
+TEST_F(WindowSession, PausesWhereAFrameIsMissingAndGoesOnOnceItIsBack) {
+    writeFrameFolder(file("frames"), {0.5, 2, 4, 8});
+    const std::string design = write("frames.json", R"({
+        "schema": {"name": "stairwell design", "major": 1, "minor": 0}, "name": "frames",
+        "frames": "frames", "trials_per_condition": 8, "catch_share": 0})");
+    WindowPerson person(server_, folder_.path(),
+                        {"--design", design, "--data", data(), "--participant", "01", "--seed", "5",
+                         "--start", "--presentation", write("pace.json", kQuickPace)});
+    agree(person);
+    person.waitFor("stimulus 1");
+    std::filesystem::rename(file("frames"), file("away"));
+    // What was read ahead is still shown.
+    std::string event;
+    while (!(event = person.nextEvent()).starts_with("problem")) {
+        if (event.starts_with("stimulus")) person.press("Left");
+    }
+    EXPECT_THAT(event, testing::AllOf(testing::HasSubstr("The next trial cannot be shown"),
+                                      testing::HasSubstr("no such file")));
+    const std::size_t before = rows().size();
+    person.press("Return");
+    person.waitFor("problem");
+    EXPECT_EQ(rows().size(), before);
+    std::filesystem::rename(file("away"), file("frames"));
+    person.press("Return");
+    answerAll(person);
+    EXPECT_TRUE(study_app::replayTable(table()).session.finished());
+    EXPECT_EQ(rows().size(), 8u);
+}
+
 /// What the robot must have answered, by the stimulus images alone; nothing where it drew a coin.
 std::optional<records::Response> predicted(const Trial& row, const study_app::Design& design) {
     const study_app::TrialImages images = study_app::trialImages(row, design);
