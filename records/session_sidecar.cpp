@@ -23,7 +23,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr char kSchemaName[] = "stairwell session";
-constexpr int kMinor = 0;
+constexpr int kMinor = 1;  // since 1: luminance of black and grey
 
 template <typename T>
 ordered_json orNull(const std::optional<T>& value) {
@@ -53,9 +53,9 @@ ordered_json toJson(const SessionSidecar& sidecar) {
                          {"display_width_px", sidecar.displayWidthPx},
                          {"display_height_px", sidecar.displayHeightPx},
                          {"px_per_deg", orNull(sidecar.pxPerDeg)},
-                         {"display_gamma", orNull(sidecar.displayGamma)},
-                         {"luminance_cd_m2", orNull(sidecar.luminanceCdM2)},
-                         {"design", ordered_json(sidecar.design)}};
+                         {"display_gamma", orNull(sidecar.displayGamma)}};
+    addLuminance(ours, sidecar.luminance);
+    ours["design"] = ordered_json(sidecar.design);
     ordered_json file = {
         {"TaskName", "hideartifact"},
         {"TaskDescription", "Which filter radius hides the stair-steps of a shadow edge"}};
@@ -83,7 +83,7 @@ SessionSidecar sidecarFrom(const json& value, const std::string& file) {
     sidecar.displayHeightPx = fields.integer("display_height_px", 1);
     sidecar.pxPerDeg = fields.optionalNumber("px_per_deg", kPositive);
     sidecar.displayGamma = fields.optionalNumber("display_gamma", kPositive);
-    sidecar.luminanceCdM2 = fields.optionalNumber("luminance_cd_m2", kPositive);
+    sidecar.luminance = luminanceFrom(fields);
     fields.object("design");
     sidecar.design = fields.any("design");
     return sidecar;

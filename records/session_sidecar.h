@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "records/run_context.h"
+#include "records/screen_luminance.h"
 #include "records/trial_table.h"
 
 namespace records {
@@ -35,7 +36,7 @@ struct SessionSidecar {
     int displayWidthPx = 0, displayHeightPx = 0;
     std::optional<double> pxPerDeg;
     std::optional<double> displayGamma;
-    std::optional<double> luminanceCdM2;  ///< of full white
+    ScreenLuminance luminance;
 
     bool operator==(const SessionSidecar&) const = default;
 };

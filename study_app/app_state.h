@@ -22,6 +22,7 @@ namespace study_app {
 struct SetupState {
     SetupForm form;
     std::vector<ShippedDesign> designs;
+    std::string designFile;  ///< as typed into the list of designs
     // What follows from the form, found again whenever the form changes:
     std::optional<SetupForm> lookedUp;
     ExistingSession existing;
@@ -42,12 +43,14 @@ struct CalibrationState {
     double cardWidthPx = 324;  ///< as on a display of 96 pixels per inch
     bool cardMatched = false;  ///< the observer's own display, not the starting value
     bool dragging = false;
-    double distanceCm = 60;
+    double distanceCm = 0;
     bool distanceGiven = false;
     int greyCode = 186;  ///< matches at gamma 2.2
     bool gammaGiven = false;
-    double luminance = 0;  ///< cd/m2; 0: not measured
-    std::string problem;   ///< why it could not be stored
+    /// As typed, cd/m2 of codes 0, records::kMeasuredGreyCode and 255; empty: not measured.
+    std::string blackText, greyText, whiteText;
+    std::optional<int> patchCode;  ///< shown for the photometer while its reading is typed
+    std::string problem;           ///< why it could not be stored
 };
 
 /// Of the session that ended and its reruns.

@@ -27,13 +27,14 @@ ordered_json orNull(const std::optional<double>& value) {
 }
 
 ordered_json toJson(const DisplayProfile& p) {
-    return {{"name", p.name},
-            {"width_px", p.widthPx},
-            {"height_px", p.heightPx},
-            {"px_per_mm", orNull(p.pxPerMm)},
-            {"distance_mm", orNull(p.distanceMm)},
-            {"gamma", orNull(p.gamma)},
-            {"luminance_cd_m2", orNull(p.luminanceCdM2)}};
+    ordered_json json = {{"name", p.name},
+                         {"width_px", p.widthPx},
+                         {"height_px", p.heightPx},
+                         {"px_per_mm", orNull(p.pxPerMm)},
+                         {"distance_mm", orNull(p.distanceMm)},
+                         {"gamma", orNull(p.gamma)}};
+    records::addLuminance(json, p.luminance);
+    return json;
 }
 
 DisplayProfile profileFrom(const records::JsonFields& fields) {
@@ -43,7 +44,7 @@ DisplayProfile profileFrom(const records::JsonFields& fields) {
                      .pxPerMm = fields.optionalNumber("px_per_mm", records::kPositive),
                      .distanceMm = fields.optionalNumber("distance_mm", records::kPositive),
                      .gamma = fields.optionalNumber("gamma", records::kPositive),
-                     .luminanceCdM2 = fields.optionalNumber("luminance_cd_m2", records::kPositive)};
+                     .luminance = records::luminanceFrom(fields)};
     if (const std::string problem = validate(p); !problem.empty()) {
         throw std::runtime_error(fields.where("name") + ": " + p.name + ": " + problem);
     }

@@ -35,7 +35,7 @@ records::SessionSidecar sidecarFor(const SessionRequest& request) {
                                     .displayHeightPx = request.displayHeightPx,
                                     .pxPerDeg = request.pxPerDeg,
                                     .displayGamma = request.displayGamma,
-                                    .luminanceCdM2 = request.luminanceCdM2};
+                                    .luminance = request.luminance};
     sidecar.context.seed = request.seed;
     return sidecar;
 }

@@ -38,7 +38,8 @@ struct SessionRequest {
     int displayWidthPx = 0, displayHeightPx = 0;  ///< > 0
     records::RunContext context;
     /// Of a calibrated display; what is not known stays out of the sidecar.
-    std::optional<double> pxPerDeg = {}, displayGamma = {}, luminanceCdM2 = {};
+    std::optional<double> pxPerDeg = {}, displayGamma = {};
+    records::ScreenLuminance luminance = {};
 };
 
 class RecordedSession {

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "study_app/page_parts.h"
 #include "study_app/screens.h"
+#include "study_app/session_start.h"
 
 namespace study_app {
 namespace {
 
 constexpr float kLeastCardPx = 80, kMoreWidthPx = 470;
+constexpr int kLeastGrey = 128, kMostGrey = 221;  // gamma 1 to 4.8
 
 template <typename... Values>
 std::string formatted(const char* format, Values... values) {
@@ -58,7 +62,17 @@ void drawCard(CalibrationState& c, const Page& page, float widest) {
     ImGui::SetCursorScreenPos({at.x, at.y + height + page.px(10)});
 }
 
+/// A full area of one code, as large as the heads of most photometers.
+void drawPatch(int code, const Page& page) {
+    ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Code %d", code);
+    faint(page, "Hold the photometer against this area and type what it reads.");
+    ImGui::Dummy({0, page.px(4)});
+    const auto edge = static_cast<int>(page.px(360));
+    image(page, cv::Mat(edge, edge, CV_8UC1, cv::Scalar(code)));
+}
+
 void drawCardColumn(CalibrationState& c, const Page& page, float widest) {
+    if (c.patchCode) return drawPatch(*c.patchCode, page);
     ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Size of a pixel");
     faint(page,
           "Hold a bank card against the screen and drag the right edge until the sizes agree.");
@@ -94,7 +108,10 @@ void drawGamma(CalibrationState& c, const Page& page) {
     ImGui::SameLine(0, page.px(16));
     ImGui::BeginGroup();
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##grey", &c.greyCode, 128, 232, "")) c.gammaGiven = true;
+    if (ImGui::SliderInt("##gamma", &c.greyCode, kLeastGrey, kMostGrey, "",
+                         ImGuiSliderFlags_AlwaysClamp)) {
+        c.gammaGiven = true;
+    }
     const std::string gamma =
         c.gammaGiven ? formatted("gamma %.2f", gammaFromGreyCode(c.greyCode)) : "not matched yet";
     ImGui::TextUnformatted(formatted("code %d: ", c.greyCode).append(gamma).c_str());
@@ -102,29 +119,51 @@ void drawGamma(CalibrationState& c, const Page& page) {
 }
 
 void drawDistance(CalibrationState& c, const Page& page) {
-    ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Viewing distance and luminance");
+    ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Viewing distance");
     ImGui::SetNextItemWidth(page.px(190));
-    if (ImGui::InputDouble("##distance", &c.distanceCm, 1, 5, "%.0f cm")) {
+    // What nobody gave is not recorded, so it must not look as if it were.
+    const char* format = c.distanceGiven ? "%g cm" : "not given yet";
+    if (ImGui::InputDouble("##distance", &c.distanceCm, 0, 0, format)) {
         c.distanceCm = std::clamp(c.distanceCm, 5.0, 5000.0);
         c.distanceGiven = true;
     }
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("from the eye");
-    ImGui::SetNextItemWidth(page.px(190));
-    ImGui::InputDouble("##luminance", &c.luminance, 0, 0,
-                       c.luminance > 0 ? "%.1f cd/m2" : "not measured");
+}
+
+void drawLuminance(CalibrationState& c, const Page& page) {
+    ImGui::TextColored({0.62f, 0.75f, 0.92f, 1}, "Luminance");
+    faint(page, "Optional, with a photometer: click a field, and its code is shown at the left.");
+    c.patchCode.reset();
+    const auto field = [&](const char* name, int code, std::string& text) {
+        ImGui::BeginGroup();
+        ImGui::AlignTextToFramePadding();  // as those beside a field are without asking
+        faint(page, formatted("%s, code %d", name, code));
+        ImGui::SetNextItemWidth(page.px(130));
+        ImGui::InputTextWithHint((std::string("##") + name).c_str(), "cd/m2", &text,
+                                 ImGuiInputTextFlags_CharsDecimal);
+        if (ImGui::IsItemActive()) c.patchCode = code;
+        ImGui::EndGroup();
+    };
+    field("black", 0, c.blackText);
     ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("of full white");
-    c.luminance = std::clamp(c.luminance, 0.0, 100000.0);
+    field("grey", records::kMeasuredGreyCode, c.greyText);
+    ImGui::SameLine();
+    field("white", 255, c.whiteText);
+    try {
+        const auto gamma = gammaFromLuminance(luminanceTyped(c));
+        if (gamma) faint(page, formatted("By these readings the gamma is %.2f.", *gamma));
+    } catch (const std::runtime_error&) {
+        // Half a number: what is wrong with it is said on going on.
+    }
 }
 
 /// What the design's steps are to the eye.
 void drawAngles(const AppState& state, const Page& page) {
     const CalibrationState& c = state.calibration;
-    if (!c.cardMatched) {
-        faint(page, "Visual angles follow once the card is matched.");
+    if (!c.cardMatched || !c.distanceGiven) {
+        faint(page, "Visual angles follow once the card is matched and the distance given.");
         return;
     }
     const double pxPerMm = pxPerMmFromCard(c.cardWidthPx), distanceMm = 10 * c.distanceCm;
@@ -170,6 +209,8 @@ std::optional<Request> drawCalibration(AppState& state, const Page& page) {
     drawAngles(state, page);
     ImGui::Dummy({0, page.px(14)});
     drawGamma(c, page);
+    ImGui::Dummy({0, page.px(14)});
+    drawLuminance(c, page);
     ImGui::EndChild();
     const std::string note = c.cardMatched && c.distanceGiven && c.gammaGiven
                                  ? ""

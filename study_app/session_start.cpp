@@ -84,6 +84,20 @@ void requireNoContradiction(const Detail& detail, const SetupForm& form) {
         " here: leave it out, or choose another participant");
 }
 
+std::optional<double> reading(const std::string& text, const char* ofWhat) {
+    if (text.empty()) return {};
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error == std::errc() && stop == end) return number;
+    throw std::runtime_error(std::string("Luminance of ") + ofWhat + ": " +
+                             records::quotedText(text) + ": must be a number, in cd/m2");
+}
+
+std::string readingText(const std::optional<double>& value) {
+    return value ? records::exactText(*value) : std::string();
+}
+
 /// What the form leaves empty stays as it is in the table.
 void storeDetails(const SetupForm& form) {
     const records::ParticipantDetails known =
@@ -121,6 +135,12 @@ void lookUp(SetupState& setup) {
     setup.lookedUp = setup.form;
 }
 
+records::ScreenLuminance luminanceTyped(const CalibrationState& c) {
+    return {.black = reading(c.blackText, "black"),
+            .grey = reading(c.greyText, "grey"),
+            .white = reading(c.whiteText, "white")};
+}
+
 CalibrationState loadCalibration(const Window& window, const std::filesystem::path& displays) {
     CalibrationState c;
     c.warnings = displayWarnings(window.displayState());
@@ -138,7 +158,9 @@ CalibrationState loadCalibration(const Window& window, const std::filesystem::pa
     c.distanceGiven = known->distanceMm.has_value();
     if (known->gamma) c.greyCode = greyCodeOfHalfLight(*known->gamma);
     c.gammaGiven = known->gamma.has_value();
-    c.luminance = known->luminanceCdM2.value_or(0);
+    c.blackText = readingText(known->luminance.black);
+    c.greyText = readingText(known->luminance.grey);
+    c.whiteText = readingText(known->luminance.white);
     return c;
 }
 
@@ -148,9 +170,12 @@ bool storeCalibration(CalibrationState& c, const std::filesystem::path& displays
     if (c.cardMatched) p.pxPerMm = pxPerMmFromCard(c.cardWidthPx);
     if (c.distanceGiven) p.distanceMm = 10 * c.distanceCm;
     if (c.gammaGiven) p.gamma = gammaFromGreyCode(c.greyCode);
-    if (c.luminance > 0) p.luminanceCdM2 = c.luminance;
     c.problem.clear();
     try {
+        p.luminance = luminanceTyped(c);
+        if (const std::string broken = validate(p); !broken.empty()) {
+            throw std::runtime_error(broken);
+        }
         if (p != before) storeDisplay(displays, p);
     } catch (const std::runtime_error& error) {
         c.problem = error.what();

@@ -16,10 +16,13 @@ namespace study_app {
 /// the participants, what is known of this one, why a session cannot start.
 void lookUp(SetupState& setup);
 
+/// Empty fields are unknown. Throws std::runtime_error for what is no number.
+records::ScreenLuminance luminanceTyped(const CalibrationState& calibration);
+
 /// The display that the window stands on, as it was calibrated before.
 CalibrationState loadCalibration(const Window& window, const std::filesystem::path& displays);
 /// Puts what was measured into the profile, and a profile that changed into the file. False, with
-/// the reason in `problem`, where the file cannot be written.
+/// the reason in `problem`, where it is no display or the file cannot be written.
 bool storeCalibration(CalibrationState& calibration, const std::filesystem::path& displays);
 
 /// Starts or resumes the form's session. Throws std::runtime_error.

@@ -261,7 +261,7 @@ SessionRequest requestFrom(const SetupForm& form, const ExistingSession& existin
             .context = context,
             .pxPerDeg = pxPerDeg(display),
             .displayGamma = display.gamma,
-            .luminanceCdM2 = display.luminanceCdM2};
+            .luminance = display.luminance};
 }
 
 }  // namespace study_app

@@ -38,6 +38,12 @@ double gammaFromGreyCode(int code) {
     return std::log(0.5) / std::log(code / 255.0);
 }
 
+std::optional<double> gammaFromLuminance(const records::ScreenLuminance& l) {
+    if (!l.black || !l.grey || !l.white || !validate(l).empty()) return {};
+    return std::log((*l.grey - *l.black) / (*l.white - *l.black)) /
+           std::log(records::kMeasuredGreyCode / 255.0);
+}
+
 std::optional<double> pxPerDeg(const DisplayProfile& profile) {
     if (!profile.pxPerMm || !profile.distanceMm) return {};
     return pxPerDeg(*profile.pxPerMm, *profile.distanceMm);
@@ -53,9 +59,7 @@ std::string validate(const DisplayProfile& p) {
     for (const std::string& found :
          {broken("px_per_mm", p.pxPerMm, records::between(0.05, 50)),
           broken("distance_mm", p.distanceMm, records::between(50, 50000)),
-          broken("gamma", p.gamma, records::between(0.5, 5)),
-          broken("luminance_cd_m2", p.luminanceCdM2,
-                 {.low = 0, .high = 100000, .lowIncluded = false})}) {
+          broken("gamma", p.gamma, records::between(0.5, 5)), records::validate(p.luminance)}) {
         if (!found.empty()) return found;
     }
     return {};

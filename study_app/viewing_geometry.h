@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "records/screen_luminance.h"
+
 namespace study_app {
 
 /// ISO/IEC 7810 ID-1: every bank card.
@@ -29,6 +31,10 @@ int greyCodeOfHalfLight(double gamma);
 /// And back: the gamma of a display on which this code matches the lines. Code in 1..254.
 double gammaFromGreyCode(int code);
 
+/// Of the display that gives this light at codes 0, records::kMeasuredGreyCode and 255: the
+/// exponent of the light above black. Absent where a reading is, or where they do not rise.
+std::optional<double> gammaFromLuminance(const records::ScreenLuminance& luminance);
+
 /// A display as an experimenter calibrated it; what is not known is absent.
 struct DisplayProfile {
     std::string name;  ///< of the monitor, as the system gives it
@@ -36,7 +42,7 @@ struct DisplayProfile {
     std::optional<double> pxPerMm = {};
     std::optional<double> distanceMm = {};
     std::optional<double> gamma = {};
-    std::optional<double> luminanceCdM2 = {};  ///< of full white
+    records::ScreenLuminance luminance = {};
     bool operator==(const DisplayProfile&) const = default;
 };
 

@@ -195,7 +195,9 @@ SessionSidecar randomSidecar(std::mt19937_64& random) {
     sidecar.displayHeightPx = 1 + static_cast<int>(below(random, 8000));
     sidecar.pxPerDeg = maybe(random, positive);
     sidecar.displayGamma = maybe(random, positive);
-    sidecar.luminanceCdM2 = maybe(random, positive);
+    sidecar.luminance.black = maybe(random, share);
+    sidecar.luminance.grey = maybe(random, [](std::mt19937_64& r) { return 1.5 + 50 * share(r); });
+    sidecar.luminance.white = maybe(random, [](std::mt19937_64& r) { return 60 + 500 * share(r); });
     return sidecar;
 }
 

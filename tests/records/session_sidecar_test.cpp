@@ -34,6 +34,24 @@ TEST(Sidecar, EverySidecarThatCanBeWrittenReadsBackExactly) {
     }
 }
 
+TEST(Sidecar, HoldsReadingsOfAPhotometerThatRiseFromBlackToWhite) {
+    const ScratchFolder folder;
+    std::mt19937_64 random(3);
+    SessionSidecar sidecar = tests::randomSidecar(random);
+    sidecar.luminance = {.black = 0, .grey = 21.5, .white = 98};
+    writeSidecar(folder / "a.json", sidecar);
+    EXPECT_EQ(readSidecar(folder / "a.json").luminance, sidecar.luminance);
+    sidecar.luminance.grey = 98;
+    EXPECT_THAT(errorOf<std::invalid_argument>([&] { writeSidecar(folder / "b.json", sidecar); }),
+                HasSubstr("b.json: field stairwell.luminance_cd_m2: 98.0: must be greater than "
+                          "luminance_grey_cd_m2, 98"));
+    // Before there were three, white stood alone.
+    json old = json::parse(readBytes(folder / "a.json"));
+    for (const char* field : {"luminance_black_cd_m2", "luminance_grey_cd_m2"})
+        old["stairwell"].erase(field);
+    EXPECT_EQ(parseSidecar(old.dump(), "old.json").luminance, (ScreenLuminance{.white = 98}));
+}
+
 TEST(Sidecar, DescribesEveryColumnOfTheTable) {
     const ScratchFolder folder;
     std::mt19937_64 random(3);
@@ -77,6 +95,10 @@ TEST(Sidecar, NamesFileFieldValueAndRule) {
     EXPECT_THAT(failure("/stairwell/context/date", 9), HasSubstr("stairwell.context.date: 9"));
     EXPECT_THAT(failure("/stairwell/display_width_px", 0), HasSubstr("display_width_px: 0"));
     EXPECT_THAT(failure("/stairwell", nullptr), HasSubstr("field stairwell: null"));
+    EXPECT_THAT(failure("/stairwell/luminance_cd_m2", 0),
+                HasSubstr("luminance_cd_m2: 0: must be a number greater than 0"));
+    EXPECT_THAT(failure("/stairwell/luminance_black_cd_m2", -0.1),
+                HasSubstr("luminance_black_cd_m2: -0.1: must be"));
     SessionSidecar bad = sidecar;
     bad.beta = std::nan("");
     EXPECT_THAT(errorOf<std::invalid_argument>([&] { writeSidecar(folder / "b.json", bad); }),

@@ -192,6 +192,15 @@ TEST(ViewingGeometry, KnowsTheTextbookNumbers) {
     EXPECT_NEAR(gammaFromGreyCode(greyCodeOfHalfLight(1.8)), 1.8, 0.02);  // codes are whole
 }
 
+TEST(ViewingGeometry, FindsTheGammaOfADisplayFromThreeReadings) {
+    const double gamma = 1.9, black = 0.4, white = 250;
+    const double grey = black + (white - black) * std::pow(128 / 255.0, gamma);
+    EXPECT_NEAR(gammaFromLuminance({.black = black, .grey = grey, .white = white}).value(), gamma,
+                1e-12);
+    EXPECT_FALSE(gammaFromLuminance({.black = black, .white = white}));
+    EXPECT_FALSE(gammaFromLuminance({.black = black, .grey = white, .white = grey}));
+}
+
 TEST(ViewingGeometry, WarnsOfEverythingThatResamples) {
     const DisplayState good{.windowWidth = 1280,
                             .windowHeight = 800,
@@ -222,6 +231,7 @@ TEST(DisplayFile, KeepsOneProfilePerMonitorAndResolution) {
     storeDisplay(file, desk);
     storeDisplay(file, low);
     desk.gamma = 2.2;
+    desk.luminance = {.black = 0.3, .white = 120};
     storeDisplay(file, desk);
     EXPECT_EQ(readDisplays(file).size(), 2u);
     EXPECT_EQ(findDisplay(readDisplays(file), desk), desk);
