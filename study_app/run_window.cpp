@@ -94,6 +94,20 @@ class StudyWindow {
     bool returnPressed_ = false, verified_ = false;
 };
 
+/// What the calibration screen would have said, for those who leave it out.
+void printNotices(const CalibrationState& c) {
+    const auto print = [](const std::string& notice) {
+        std::fprintf(stderr, "study_app: notice: %s\n", notice.c_str());
+    };
+    if (!c.warnings.empty()) print(c.warnings);
+    if (!pxPerDeg(c.profile)) {
+        print(c.profile.name + ", " + std::to_string(c.profile.widthPx) + " x " +
+              std::to_string(c.profile.heightPx) +
+              ": is not calibrated: the sidecar will not say how large stimuli were to the eye; "
+              "leave --start out to calibrate it");
+    }
+}
+
 StudyWindow::StudyWindow(const WindowRun& run)
     : run_(run),
       window_(run.window),
@@ -117,6 +131,7 @@ StudyWindow::StudyWindow(const WindowRun& run)
         }
         if (setup.problem.empty()) leaveSetup(Window::now());
         if (!setup.problem.empty()) throw std::runtime_error(setup.problem);
+        printNotices(state_.calibration);
         if (state_.flow.screen == Screen::calibration) act(Request::next, Window::now());
     }
     if (run.panel) panel_.toggle();

@@ -43,6 +43,9 @@ void designField(const Page& page, SetupState& setup) {
         faint(page, design.description);
         ImGui::PopTextWrapPos();
     }
+    ImGui::SetNextItemWidth(page.px(420));
+    ImGui::InputTextWithHint("##file", "or your own: path/to/design.json", &setup.designFile);
+    if (ImGui::IsItemDeactivatedAfterEdit()) setup.form.design = setup.designFile;
     ImGui::EndCombo();
 }
 
@@ -78,7 +81,8 @@ void drawForm(const Page& page, SetupState& setup) {
     ImGui::BeginDisabled(fixed);
     designField(page, setup);
     taskField(page, form);
-    textField(page, "Seed", "drawn at the start", form.seed);
+    const std::string begun = fixed ? std::to_string(setup.existing.seed) : "drawn at the start";
+    textField(page, "Seed", begun.c_str(), form.seed);
     ImGui::EndDisabled();
     if (fixed) faint(page, "An existing session keeps the design, task and seed it began with.");
 }
