@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr const char* kSchemaName = "stairwell displays";
-constexpr int kMajor = 1;
+constexpr int kMajor = 1, kMinor = 1;  // since 1.1: luminance of black and grey
 
 bool sameDisplay(const DisplayProfile& a, const DisplayProfile& b) {
     return a.name == b.name && a.widthPx == b.widthPx && a.heightPx == b.heightPx;
@@ -90,7 +90,7 @@ void storeDisplay(const fs::path& file, const DisplayProfile& profile) {
     displays.push_back(profile);
     ordered_json list = ordered_json::array();
     for (const DisplayProfile& p : displays) list.push_back(toJson(p));
-    records::writeJson(file, {{"schema", records::schemaJson(kSchemaName, kMajor, 0)},
+    records::writeJson(file, {{"schema", records::schemaJson(kSchemaName, kMajor, kMinor)},
                               {"displays", std::move(list)}});
 }
 

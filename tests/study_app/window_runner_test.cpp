@@ -9,6 +9,7 @@
 #include "records/participants_table.h"
 #include "records/session_sidecar.h"
 #include "stimulus/stimulus_image.h"
+#include "study_app/display_file.h"
 #include "study_app/practice.h"
 #include "study_app/session_flags.h"
 #include "study_app/session_runner.h"
@@ -358,6 +359,36 @@ TEST(StimulusPrefetcher, PassesErrorsOn) {
     EXPECT_THROW(prefetcher.take(trial), std::invalid_argument);
     prefetcher.request({trial});
     EXPECT_THROW(prefetcher.take(trial), std::invalid_argument);
+}
+
+TEST(Calibration, StoresWhatAPhotometerReadAndNothingThatIsNoReading) {
+    const tests::TemporaryFolder folder;
+    const auto displays = folder.path() / "displays.json";
+    CalibrationState c;
+    c.profile = {.name = "desk", .widthPx = 1920, .heightPx = 1080};
+    c.blackText = "0";
+    c.greyText = "21.5";
+    c.whiteText = "98";
+    ASSERT_TRUE(storeCalibration(c, displays)) << c.problem;
+    EXPECT_EQ(c.profile.luminance,
+              (records::ScreenLuminance{.black = 0, .grey = 21.5, .white = 98}));
+    EXPECT_EQ(findDisplay(readDisplays(displays), c.profile), c.profile);
+    for (const auto& [grey, problem] :
+         {std::pair("dim", "Luminance of grey: \"dim\": must be a number"),
+          std::pair("120", "luminance_cd_m2: 98: must be greater than luminance_grey_cd_m2, 120"),
+          std::pair("1e999", "must be a number"), std::pair("-3", "luminance_grey_cd_m2: -3: ")}) {
+        c.greyText = grey;
+        EXPECT_FALSE(storeCalibration(c, displays));
+        EXPECT_THAT(c.problem, testing::HasSubstr(problem));
+        EXPECT_EQ(c.profile.luminance.grey, 21.5);
+    }
+    c.greyText.clear();  // taken back
+    ASSERT_TRUE(storeCalibration(c, displays));
+    EXPECT_FALSE(findDisplay(readDisplays(displays), c.profile)->luminance.grey);
+    c.gammaGiven = true;
+    c.greyCode = 254;  // gamma 176
+    EXPECT_FALSE(storeCalibration(c, displays));
+    EXPECT_THAT(c.problem, testing::HasSubstr("gamma"));
 }
 
 TEST(SessionFlags, FindAStaircaseAtTheDisplaysLimitAndACarelessObserver) {
