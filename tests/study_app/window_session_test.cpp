@@ -198,6 +198,7 @@ TEST_F(WindowSession, PausesWhereAFrameIsMissingAndGoesOnOnceItIsBack) {
     agree(person);
     person.waitFor("stimulus 1");
     std::filesystem::rename(file("frames"), file("away"));
+    person.press("Left");
     // What was read ahead is still shown.
     std::string event;
     while (!(event = person.nextEvent()).starts_with("problem")) {
@@ -267,9 +268,9 @@ TEST_F(WindowSession, ARobotThatSeesOnlyPixelsHasTheThresholdsOfTheStimuli) {
     for (std::size_t k = 0; k < session.conditions().size(); ++k) {
         const double radius = study_app::thresholds(session)[k].radiusPx;
         const double direct = noticedUpTo(session.design(), session.conditions()[k]);
-        // Every answer was held against the images above, exactly. This is about the staircase: 15
-        // trials leave a posterior sd of about .12 log10, so 2 sd.
-        EXPECT_NEAR(std::log10(radius), std::log10(direct), 0.25) << session.conditions()[k].name;
+        // Every answer was held against the images above, exactly. This is about the staircase:
+        // after 15 trials a threshold is off by .10 log10 (sd; `study_app --check quick`), so 2 sd.
+        EXPECT_NEAR(std::log10(radius), std::log10(direct), 0.2) << session.conditions()[k].name;
         measured[session.conditions()[k].name] = radius;
     }
     EXPECT_LT(measured["stair-a10-lit1"], measured["stair-a20-lit1"]);
