@@ -274,8 +274,8 @@ int main(int argc, char** argv) {
         demo::keyHelp()};
     Options options;
     options.command.assign(argv, argv + argc);
-    app.add_option("--scene", options.scene, "built-in scene (see --list-scenes), NAME:triangles=COUNT for one with more\n"
-                   "triangles, or a model file (glTF, OBJ, PLY, ...); default: yard");
+    app.add_option("--scene", options.scene, "built-in scene (see --list-scenes), NAME:triangles=COUNT:cascades=COUNT\n"
+                   "for one with more triangles and several maps of the sun, or a model file (glTF, OBJ, PLY, ...); default: yard");
     app.add_option("--technique", options.technique,
                    "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,

@@ -126,7 +126,7 @@ void Viewer::drawOther() {
         otherFrame_->setScene(frame_.scene());
     otherFrame_->setCamera(frame_.scene().camera);
     otherFrame_->setSun(frame_.scene().sun);
-    otherFrame_->setWindow(frame_.window());
+    otherFrame_->setLightViews(frame_.lightViews());
     const ShadowRun::Settings settings = settingsOf(state_, state_.compareWith);
     if (!otherRun_) otherRun_ = std::make_unique<ShadowRun>(*otherFrame_, info_, settings);
     otherRun_->change(settings);

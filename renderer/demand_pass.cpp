@@ -60,10 +60,11 @@ DemandPass::DemandPass(const ShaderLibrary& shaders, const std::string& demandGl
                 }),
       ring_(kCounters, "demand") {}
 
-void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock* clock) {
-    const auto inputs = frame.outputs();
+void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock* clock,
+                        std::size_t view) {
+    const auto inputs = frame.outputs(view);
     if (!inputs) return;
-    frame.bindConstants();
+    frame.bindConstants(view);
     if (clock != nullptr) clock->begin(Pass::demand);
     programs_.use(*inputs, rule);
     const SparsePixels pixels = sparsePixels(frame, ring_.submissions());

@@ -78,7 +78,10 @@ class DemandPass {
     /// Counts the demand of the frame that `frame` drew last. Nothing happens before its first
     /// frame. Which pixel of each cell is asked rotates from call to call, so that as many calls as
     /// a cell has pixels ask every pixel once.
-    void submit(const Renderer& frame, const DemandRule& rule, PassClock* clock = nullptr);
+    /// `view` is one of the frame's maps; only the pixels that it serves are asked. With several
+    /// maps each needs a DemandPass of its own.
+    void submit(const Renderer& frame, const DemandRule& rule, PassClock* clock = nullptr,
+                std::size_t view = 0);
 
     /// The newest submission that the GPU has finished and that was not returned before; absent
     /// where there is none. Never waits.

@@ -51,8 +51,8 @@ DetailProbe::DetailProbe(const ShaderLibrary& shaders, const std::string& demand
                               "detail constants")),
       ring_(DemandPass::kCounters, "detail") {}
 
-void DetailProbe::submit(const Renderer& frame, const DemandRule& rule) {
-    const auto inputs = frame.outputs();
+void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::size_t view) {
+    const auto inputs = frame.outputs(view);
     if (!inputs) return;
     take();
     const int tile = tileOf(ring_.submissions());
@@ -61,16 +61,16 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule) {
     const double edgeUv = static_cast<double>(kDrawnEdge) / kFineEdge;
     const glm::dvec2 lowestUv = glm::dvec2(lowest) / static_cast<double>(kFineEdge);
 
-    f32::ShadowConstants shadow = frame.shadowConstants();
+    f32::ShadowConstants shadow = frame.shadowConstants(view);
     const glm::dmat4 tileFromMap =
         glm::scale(glm::dmat4(1), glm::dvec3(1 / edgeUv, 1 / edgeUv, 1)) *
         glm::translate(glm::dmat4(1), glm::dvec3(-lowestUv, 0));
     shadow.shadowFromWorld = glm::mat4(tileFromMap * glm::dmat4(shadow.shadowFromWorld));
     shadow.map = {kFineEdge, 1.0F / kFineEdge, 0, shadow.map.w};
-    frame.bindConstants();
+    frame.bindConstants(view);
     glNamedBufferSubData(shadowBlock_.name(), 0, sizeof shadow, &shadow);
     glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
-    frame.drawCasters(target_, kDrawnEdge);
+    frame.drawCasters(target_, kDrawnEdge, view);
 
     const SparsePixels pixels = sparsePixels(frame, ring_.submissions() / kTiles);
     glUseProgram(program_.name());
@@ -84,7 +84,7 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule) {
     ring_.begin();
     glDispatchCompute(pixels.groupsX, pixels.groupsY, 1);
     ring_.end();
-    frame.bindConstants();
+    frame.bindConstants(view);
 }
 
 void DetailProbe::take() {
@@ -94,9 +94,9 @@ void DetailProbe::take() {
                 tiles_[static_cast<std::size_t>(tileOf(reading->submission))].begin());
 }
 
-void DetailProbe::submitAll(const Renderer& frame, const DemandRule& rule) {
+void DetailProbe::submitAll(const Renderer& frame, const DemandRule& rule, std::size_t view) {
     for (int tile = 0; tile < kTiles; ++tile) {
-        submit(frame, rule);
+        submit(frame, rule, view);
         glFinish();
     }
     take();

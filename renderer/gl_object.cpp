@@ -26,6 +26,14 @@ void checkComplete(GLuint framebuffer, std::string_view label) {
                                  std::to_string(status) + ")");
 }
 
+void setNearestClamped(GLuint texture, int levels) {
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER,
+                        levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height, int layers,
                     int levels, std::string_view label) {
     GLuint name = 0;
@@ -41,11 +49,7 @@ Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height,
             "texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
             std::to_string(height) + " texels: the driver refuses it (GL error " +
             std::to_string(error) + (error == GL_OUT_OF_MEMORY ? ", out of memory)" : ")"));
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER,
-                        levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    setNearestClamped(name, levels);
     setLabel(GL_TEXTURE, name, label);
     return texture;
 }
@@ -56,9 +60,21 @@ Texture makeTexture(GLenum internalFormat, int width, int height, std::string_vi
     return makeStorage(GL_TEXTURE_2D, internalFormat, width, height, 1, 1, label);
 }
 
-Texture makeTextureArray(GLenum internalFormat, int edge, int layers, int levels,
+Texture makeTextureArray(GLenum internalFormat, int width, int height, int layers, int levels,
                          std::string_view label) {
-    return makeStorage(GL_TEXTURE_2D_ARRAY, internalFormat, edge, edge, layers, levels, label);
+    return makeStorage(GL_TEXTURE_2D_ARRAY, internalFormat, width, height, layers, levels, label);
+}
+
+Texture makeLayerView(GLenum internalFormat, const Texture& array, int layer,
+                      std::string_view label) {
+    GLuint name = 0;
+    glGenTextures(1, &name);  // a view needs a name that was never bound or created
+    Texture texture(name);
+    glTextureView(name, GL_TEXTURE_2D, array.name(), internalFormat, 0, 1,
+                  static_cast<GLuint>(layer), 1);
+    setNearestClamped(name, 1);
+    setLabel(GL_TEXTURE, name, label);
+    return texture;
 }
 
 Framebuffer makeFramebuffer(std::initializer_list<GLuint> colours, GLuint depth,

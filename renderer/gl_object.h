@@ -69,9 +69,13 @@ using Query = GlHandle<DeleteQuery>;
 /// shows in GL debuggers. Throws std::runtime_error where the driver has no room for it.
 Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label);
 
-/// The same as a stack of square layers, with mip levels for texelFetch.
-Texture makeTextureArray(GLenum internalFormat, int edge, int layers, int levels,
+/// The same as a stack of layers, with mip levels for texelFetch.
+Texture makeTextureArray(GLenum internalFormat, int width, int height, int layers, int levels,
                          std::string_view label);
+
+/// One layer of an array without mip levels, seen as a texture of its own.
+Texture makeLayerView(GLenum internalFormat, const Texture& array, int layer,
+                      std::string_view label);
 
 /// Colour attachments in order; `depth` may be 0. Throws std::runtime_error when GL calls it
 /// incomplete.

@@ -95,10 +95,10 @@ void MapFilter::ensureTextures(const Technique& technique, int edge, int layers,
     const bool chain = technique.prefilter == Prefilter::mips;
     const int levels = chain ? 1 + static_cast<int>(std::log2(edge)) : 1;
     textures_[0] =
-        makeTextureArray(glFormat(technique.format), edge, layers, levels, "filtered map");
+        makeTextureArray(glFormat(technique.format), edge, edge, layers, levels, "filtered map");
     if (!chain)
         textures_[1] =
-            makeTextureArray(glFormat(technique.format), edge, layers, 1, "filtered rows");
+            makeTextureArray(glFormat(technique.format), edge, edge, layers, 1, "filtered rows");
     format_ = technique.format;
     prefilter_ = technique.prefilter;
     textureEdge_ = edge;

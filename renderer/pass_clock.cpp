@@ -28,18 +28,17 @@ std::string_view toText(Pass pass) {
     return "unknown pass";
 }
 
-PassClock::PassClock(const GlInfo& info) : byQueries_(!info.softwareRasteriser) {
-    if (!byQueries_) return;
-    for (Query& query : queries_) {
-        GLuint name = 0;
-        glCreateQueries(GL_TIME_ELAPSED, 1, &name);
-        query = Query(name);
-    }
-}
+PassClock::PassClock(const GlInfo& info) : byQueries_(!info.softwareRasteriser) {}
 
 void PassClock::begin(Pass pass) {
     if (byQueries_) {
-        glBeginQuery(GL_TIME_ELAPSED, queries_[at(pass)].name());
+        std::vector<Query>& queries = queries_[at(pass)];
+        if (used_[at(pass)] == queries.size()) {
+            GLuint name = 0;
+            glCreateQueries(GL_TIME_ELAPSED, 1, &name);
+            queries.emplace_back(name);
+        }
+        glBeginQuery(GL_TIME_ELAPSED, queries[used_[at(pass)]++].name());
         return;
     }
     glFinish();
@@ -47,26 +46,23 @@ void PassClock::begin(Pass pass) {
 }
 
 void PassClock::end(Pass pass) {
-    used_[at(pass)] = true;
     if (byQueries_) {
         glEndQuery(GL_TIME_ELAPSED);
         return;
     }
     glFinish();
-    times_[at(pass)] =
+    times_[at(pass)] +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
             .count();
 }
 
 PassTimesMs PassClock::collectMs() {
-    if (byQueries_) {
-        for (const Pass pass : kAllPasses) {
-            if (!used_[at(pass)]) continue;
+    for (const Pass pass : kAllPasses)
+        for (std::size_t i = 0; i < used_[at(pass)]; ++i) {
             GLuint64 nanoseconds = 0;
-            glGetQueryObjectui64v(queries_[at(pass)].name(), GL_QUERY_RESULT, &nanoseconds);
-            times_[at(pass)] = static_cast<double>(nanoseconds) * 1e-6;
+            glGetQueryObjectui64v(queries_[at(pass)][i].name(), GL_QUERY_RESULT, &nanoseconds);
+            times_[at(pass)] += static_cast<double>(nanoseconds) * 1e-6;
         }
-    }
     used_ = {};
     return std::exchange(times_, {});
 }

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "renderer/gl_context.h"
 #include "renderer/gl_object.h"
@@ -28,6 +29,7 @@ class PassClock {
   public:
     explicit PassClock(const GlInfo& info);
 
+    /// Between begin() and end() of the same pass; several stretches of one pass add up.
     void begin(Pass pass);
     void end(Pass pass);
 
@@ -38,8 +40,8 @@ class PassClock {
 
   private:
     bool byQueries_;
-    std::array<Query, kPasses> queries_;
-    std::array<bool, kPasses> used_{};
+    std::array<std::vector<Query>, kPasses> queries_;  // one for each begin() of a pass in a frame
+    std::array<std::size_t, kPasses> used_{};
     std::chrono::steady_clock::time_point start_;
     PassTimesMs times_{};
 };

@@ -45,15 +45,15 @@ ByteImage Renderer::readLit() {
     return readColours(lit_, widthPx_, heightPx_);
 }
 
-FloatImage Renderer::readVisibility() {
-    FloatImage image = readFloats(visibility_, GL_RED, widthPx_, heightPx_, 1);
+FloatImage Renderer::readVisibility(std::size_t light) {
+    FloatImage image = readFloats(visibilities_.at(light), GL_RED, widthPx_, heightPx_, 1);
     flipRows(image);
     return image;
 }
 
-FloatImage Renderer::readShadowMap() {
-    const int edge = static_cast<int>(shadow_.map.x);
-    return readFloats(map_, GL_DEPTH_COMPONENT, edge, edge, 1);
+FloatImage Renderer::readShadowMap(std::size_t view) {
+    const int edge = static_cast<int>(shadows_.at(view).map.x);
+    return readFloats(maps_[view].depths, GL_DEPTH_COMPONENT, edge, edge, 1);
 }
 
 FilteredTexels Renderer::readFilteredMap() {

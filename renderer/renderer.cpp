@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <memory>
 #include <stdexcept>
 
 #include "renderer/prefilter.h"
@@ -36,12 +37,16 @@ class PassScope {
     throw std::invalid_argument("frame settings: " + name + " is " + value + ", must be " + rule);
 }
 
-float nearestSeenM(const OrbitCamera& camera) {
-    return 0.02F * camera.distanceM;
-}
-
-float farthestSeenM(const OrbitCamera& camera) {
-    return std::max(200.0F, 40 * camera.distanceM);
+void checkLights(int cascades, const std::vector<Lamp>& lamps) {
+    if (cascades < 1 || cascades > kMostCascades)
+        throw std::invalid_argument("cascades is " + std::to_string(cascades) +
+                                    ", must be in [1, " + std::to_string(kMostCascades) + "]");
+    if (lamps.size() > kMostLamps)
+        throw std::invalid_argument("the scene has " + std::to_string(lamps.size()) +
+                                    " lamps, must be at most " + std::to_string(kMostLamps));
+    for (const Lamp& lamp : lamps)
+        if (const std::string problem = validate(lamp); !problem.empty())
+            throw std::invalid_argument(problem);
 }
 
 void checkUnit(const std::string& name, float value) {
@@ -73,9 +78,25 @@ void bindTextures(std::initializer_list<GLuint> names) {
     for (const GLuint name : names) glBindTextureUnit(unit++, name);
 }
 
-Program makeLookupProgram(const ShaderLibrary& shaders, const Technique& technique) {
-    return makeProgram(shaders, "passes/fullscreen.vert", "passes/lookup.frag",
-                       techniqueOptions(technique));
+/// `ofPart`: for a map that serves a part of the receivers.
+Program makeLookupProgram(const ShaderLibrary& shaders, const Technique& technique, bool ofPart) {
+    ShaderOptions options = techniqueOptions(technique);
+    if (ofPart) options.defines.emplace_back("PART", "1");
+    return makeProgram(shaders, "passes/fullscreen.vert", "passes/lookup.frag", options);
+}
+
+/// As lit.frag has them.
+std::vector<glm::vec4> lampConstants(const std::vector<Lamp>& lamps, glm::vec3 eye) {
+    std::vector<glm::vec4> constants;
+    for (const Lamp& lamp : lamps) {
+        const bool spot = lamp.kind == Lamp::Kind::spot;
+        constants.emplace_back(lamp.position - eye,
+                               spot ? std::cos(glm::radians(lamp.coneDeg) / 2) : -2.0F);
+        constants.emplace_back(spot ? glm::normalize(lamp.target - lamp.position) : glm::vec3(0),
+                               0);
+        constants.emplace_back(lamp.colour, 0);
+    }
+    return constants;
 }
 
 void throwOnGlError() {
@@ -103,6 +124,8 @@ f64::ShadowConstants toDouble(const f32::ShadowConstants& c) {
             glm::dvec4(c.map),
             glm::dvec4(c.kernel),
             {glm::dvec4(c.parameters[0]), glm::dvec4(c.parameters[1])},
+            glm::dvec4(c.scale),
+            glm::dvec4(c.part),
             glm::dvec4(c.prefilter),
             {glm::dvec4(c.layerEnds[0]), glm::dvec4(c.layerEnds[1]), glm::dvec4(c.layerEnds[2]),
              glm::dvec4(c.layerEnds[3])}};
@@ -119,17 +142,23 @@ void FrameSettings::validate(const GlInfo& info) const {
     if (fadeWeight < 1 && (fadeFrom < 1 || fadeFrom > info.maxResolution))
         rejectSetting("fadeFrom", std::to_string(fadeFrom),
                       "in [1, " + std::to_string(info.maxResolution) + "]");
+    for (const MapSettings& map : maps)
+        FrameSettings{.resolution = map.resolution,
+                      .radiusUv = map.radiusUv,
+                      .minRadiusUv = map.minRadiusUv,
+                      .fadeWeight = map.fadeWeight,
+                      .fadeFrom = map.fadeFrom}
+            .validate(info);
     if (samplesPerPixelEdge < 1 || samplesPerPixelEdge > 16)
         rejectSetting("samplesPerPixelEdge", std::to_string(samplesPerPixelEdge), "in [1, 16]");
 }
 
 Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
                    const ShaderLibrary& shaders)
-    : info_(info), shaders_(shaders), lookupPrograms_(techniques().size()), mapFilter_(shaders) {
+    : info_(info), shaders_(shaders), lookupPrograms_(2 * techniques().size()), mapFilter_(shaders) {
     reload(shaders);
 
     viewBlock_ = makeUniformBlock(view_, "view constants");
-    shadowBlock_ = makeUniformBlock(shadow_, "shadow constants");
     lookBlock_ = makeUniformBlock(f32::LookConstants{}, "look constants");
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
@@ -141,28 +170,43 @@ Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
 
 void Renderer::setScene(Scene scene) {
     fitShadowWindow(scene.casters, scene.sun);  // throws for a scene that has none
-    depthCounter_.forget();
+    checkLights(scene.cascades, scene.lamps);
+    forgetDepths();
     scene_ = std::move(scene);
     reachM_ = kReachOfSoftness * scene_.softnessM;
-    windowStep_.reset();
-    fitWindow();
+    windowSteps_.clear();
+    fitViews();
+    makeVisibilities();
     uploadScene();
 }
 
 void Renderer::setCamera(const OrbitCamera& camera) {
     scene_.camera = camera;
-    fitWindow();
+    fitViews();
 }
 
 void Renderer::setSun(const Sun& sun) {
     fitShadowWindow(scene_.casters, sun);  // throws for a sun that gives no light
     scene_.sun = sun;
-    fitWindow();
+    fitViews();
+}
+
+void Renderer::setCascades(int count) {
+    checkLights(count, scene_.lamps);
+    scene_.cascades = count;
+    fitViews();
+}
+
+void Renderer::setLamps(std::vector<Lamp> lamps) {
+    checkLights(scene_.cascades, lamps);
+    scene_.lamps = std::move(lamps);
+    fitViews();
+    makeVisibilities();
 }
 
 void Renderer::setWindowFit(WindowFit fit) {
     windowFit_ = fit;
-    fitWindow();
+    fitViews();
 }
 
 void Renderer::setReach(double reachM) {
@@ -170,22 +214,53 @@ void Renderer::setReach(double reachM) {
         throw std::invalid_argument("kernel reach is " + std::to_string(reachM) +
                                     " m, must be finite and at least 0");
     reachM_ = reachM;
-    fitWindow();
+    fitViews();
 }
 
-void Renderer::setWindow(const ShadowWindow& window) {
-    fitted_ = window_ = window;
+void Renderer::setLightViews(std::span<const LightView> views) {
+    if (views.size() != fitted_.size())
+        throw std::invalid_argument("light views: " + std::to_string(views.size()) +
+                                    " were given, the scene has " +
+                                    std::to_string(fitted_.size()));
+    fitted_.assign(views.begin(), views.end());
+    views_ = fitted_;
 }
 
-void Renderer::fitWindow() {
-    fitted_ = fitShadowWindow(scene_.casters, scene_.sun);
-    if (windowFit_ == WindowFit::view && widthPx_ > 0)
-        fitted_ = narrowShadowWindow(
-            fitted_, scene_.casters,
-            viewVolume(scene_.camera, static_cast<double>(widthPx_) / heightPx_,
-                       nearestSeenM(scene_.camera), farthestSeenM(scene_.camera)),
-            reachM_, windowStep_);
-    window_ = fitted_;
+void Renderer::fitViews() {
+    const ShadowWindow whole = fitShadowWindow(scene_.casters, scene_.sun);
+    const bool toView = (windowFit_ == WindowFit::view || scene_.cascades > 1) && widthPx_ > 0;
+    if (toView) {
+        fitted_ = sunViews(whole, scene_.casters, scene_.camera,
+                           static_cast<double>(widthPx_) / heightPx_, scene_.cascades, reachM_,
+                           windowSteps_);
+    } else {
+        fitted_.assign(1, {});
+        fitted_.front().window = whole;
+    }
+    for (std::size_t lamp = 0; lamp < scene_.lamps.size(); ++lamp)
+        for (const LightView& view : lampViews(scene_.lamps[lamp], lamp + 1))
+            fitted_.push_back(view);
+    views_ = fitted_;
+    if (shadows_.size() != views_.size()) lastTechnique_ = nullptr;
+    maps_.resize(views_.size());
+}
+
+void Renderer::makeVisibilities() {
+    lastTechnique_ = nullptr;
+    if (widthPx_ == 0) return;
+    visibilityTargets_.clear();
+    visibilities_.clear();
+    lampVisibilities_ = {};
+    visibilities_.push_back(makeTexture(GL_R32F, widthPx_, heightPx_, "visibility"));
+    const auto lamps = static_cast<int>(scene_.lamps.size());
+    if (lamps > 0)
+        lampVisibilities_ =
+            makeTextureArray(GL_R32F, widthPx_, heightPx_, lamps, 1, "lamps' visibilities");
+    for (int lamp = 0; lamp < lamps; ++lamp)
+        visibilities_.push_back(
+            makeLayerView(GL_R32F, lampVisibilities_, lamp, "lamp's visibility"));
+    for (const Texture& visibility : visibilities_)
+        visibilityTargets_.push_back(makeFramebuffer({visibility.name()}, 0, "lookup"));
 }
 
 void Renderer::uploadScene() {
@@ -232,46 +307,46 @@ void Renderer::resize(int widthPx, int heightPx) {
     normals_ = target(GL_RGBA16F, "normals");
     albedos_ = target(GL_SRGB8_ALPHA8, "albedos");
     surfaceDepth_ = target(GL_DEPTH_COMPONENT32F, "surface depth");
-    visibility_ = target(GL_R32F, "visibility");
     lit_ = target(GL_RGBA8, "lit");
     prepassTarget_ =
         makeFramebuffer({positions_.name(), planes_.name(), normals_.name(), albedos_.name()},
                         surfaceDepth_.name(), "prepass");
-    visibilityTarget_ = makeFramebuffer({visibility_.name()}, 0, "lookup");
     litTarget_ = makeFramebuffer({lit_.name()}, 0, "lit");
     widthPx_ = widthPx;
     heightPx_ = heightPx;
-    lastTechnique_ = nullptr;
-    fitWindow();
+    makeVisibilities();
+    fitViews();
 }
 
-std::optional<Renderer::Outputs> Renderer::outputs() const {
+std::optional<Renderer::Outputs> Renderer::outputs(std::size_t view) const {
     if (lastTechnique_ == nullptr) return std::nullopt;
     return Outputs{.positions = positions_.name(),
                    .planes = planes_.name(),
                    .normals = normals_.name(),
                    .albedos = albedos_.name(),
-                   .visibility = visibility_.name(),
+                   .visibility = visibilities_[views_.at(view).light].name(),
                    .lit = lit_.name(),
-                   .depths = map_.name(),
+                   .depths = maps_.at(view).depths.name(),
                    .technique = lastTechnique_,
-                   .hasKernel = lastFrameSoft_};
+                   .hasKernel = lastTechnique_->soft && shadows_.at(view).kernel.x > 0};
 }
 
-void Renderer::bindConstants() const {
+void Renderer::bindConstants(std::size_t view) const {
     glBindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, viewBlock_.name());
-    glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlocks_.at(view).name());
     glBindBufferBase(GL_UNIFORM_BUFFER, kLookBinding, lookBlock_.name());
 }
 
 std::size_t Renderer::targetBytes() const {
-    const std::size_t perPixel = 16 + 16 + 8 + 4 + 4 + 4 + 4;  // in the order of resize()
+    const std::size_t perPixel = 16 + 16 + 8 + 4 + 4 + 4 + 4 * lights();  // as resize() makes them
     return perPixel * static_cast<std::size_t>(widthPx_) * static_cast<std::size_t>(heightPx_);
 }
 
 std::size_t Renderer::mapBytes() const {
-    return static_cast<std::size_t>(mapEdge_) * static_cast<std::size_t>(mapEdge_) *
-               static_cast<std::size_t>(bytesPerTexel(MapFormat::depth32f)) +
+    std::size_t texels = 0;
+    for (const Map& map : maps_)
+        texels += static_cast<std::size_t>(map.edge) * static_cast<std::size_t>(map.edge);
+    return texels * static_cast<std::size_t>(bytesPerTexel(MapFormat::depth32f)) +
            mapFilter_.bytes();
 }
 
@@ -287,16 +362,15 @@ void Renderer::reserveMap(int edge) {
     reservedEdge_ = edge;
 }
 
-void Renderer::ensureMap(int resolution) {
+void Renderer::ensureMap(std::size_t view, int resolution) {
+    Map& map = maps_[view];
     const int edge = std::max(resolution, reservedEdge_);
-    if (edge == mapEdge_) return;
+    if (edge == map.edge) return;
     // The old one first: two maps at once may be more than there is room for.
-    mapTarget_ = {};
-    map_ = {};
-    mapEdge_ = 0;
-    map_ = makeTexture(GL_DEPTH_COMPONENT32F, edge, edge, "shadow map");
-    mapTarget_ = makeFramebuffer({}, map_.name(), "shadow map");
-    mapEdge_ = edge;
+    map = {};
+    map.depths = makeTexture(GL_DEPTH_COMPONENT32F, edge, edge, "shadow map");
+    map.target = makeFramebuffer({}, map.depths.name(), "shadow map");
+    map.edge = edge;
 }
 
 void Renderer::updateConstants(const FrameSettings& settings) {
@@ -320,116 +394,165 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     view_.forward = glm::vec4(forward, 0);
     view_.viewport = {width, height, 1 / width, 1 / height};
 
-    window_ = snapToTexels(fitted_, settings.resolution);
-    const glm::dmat4 fromEyeRelative =
-        window_.shadowFromWorld * glm::translate(glm::dmat4(1), glm::dvec3(eye));
+    for (std::size_t view = 0; view < views_.size(); ++view)
+        setShadowConstants(settings, view, mapSettings(settings, view).resolution);
+    fillUniformBlock(viewBlock_, view_);
+    fillUniformBlock(lookBlock_, lookOf(scene_));
+    bindConstants();
+}
+
+void Renderer::setShadowConstants(const FrameSettings& settings, std::size_t view,
+                                  int resolution) {
+    const glm::vec3 eye(view_.eye);
+    const MapSettings map = mapSettings(settings, view);
     const Technique& technique =
         settings.technique != nullptr ? *settings.technique : techniques().front();
     const ParameterValues values = settings.parameters.value_or(technique.standardParameters());
-    const auto resolution = static_cast<float>(settings.resolution);
-    shadow_.shadowFromEyeRelative = glm::mat4(fromEyeRelative);
-    shadow_.shadowFromWorld = glm::mat4(window_.shadowFromWorld);
-    shadow_.towardsLight = glm::vec4(window_.towardsLight, 0);
-    shadow_.map = {resolution, 1 / resolution, 1 / static_cast<float>(mapEdge_), 0};
-    shadow_.kernel = {settings.radiusUv, settings.minRadiusUv,
-                      static_cast<float>(settings.samplesPerPixelEdge), 0};
-    shadow_.parameters[0] = glm::make_vec4(values.data());
-    shadow_.parameters[1] = glm::make_vec4(values.data() + 4);
-    shadow_.prefilter = prefilterConstants(technique, values, settings.radiusUv,
-                                           settings.minRadiusUv, settings.resolution);
+    ShadowWindow& window = views_[view].window;
+    window = snapToTexels(fitted_[view].window, resolution);
+    f32::ShadowConstants& shadow = shadows_[view];
+    shadow.shadowFromEyeRelative =
+        glm::mat4(window.shadowFromWorld * glm::translate(glm::dmat4(1), glm::dvec3(eye)));
+    shadow.shadowFromWorld = glm::mat4(window.shadowFromWorld);
+    shadow.towardsLight = window.lampAt
+                              ? glm::vec4(glm::vec3(*window.lampAt - glm::dvec3(eye)), 1)
+                              : glm::vec4(window.towardsLight, 0);
+    shadow.map = {static_cast<float>(resolution), 1 / static_cast<float>(resolution),
+                  1 / static_cast<float>(maps_[view].edge),
+                  static_cast<float>(window.lampAt ? window.depthRangeM / window.nearM : 0)};
+    shadow.kernel = {map.radiusUv, map.minRadiusUv,
+                     static_cast<float>(settings.samplesPerPixelEdge), 0};
+    shadow.parameters[0] = glm::make_vec4(values.data());
+    shadow.parameters[1] = glm::make_vec4(values.data() + 4);
+    shadow.scale = {window.nearM, window.depthRangeM, window.extentM, window.lampAt ? 1 : 0};
+    shadow.part = {window.part.fromM, window.part.toM, window.part.halfWidthUv, 0};
+    shadow.prefilter =
+        prefilterConstants(technique, values, map.radiusUv, map.minRadiusUv, resolution);
+    fillUniformBlock(shadowBlocks_[view], shadow);
+}
 
-    fillUniformBlock(viewBlock_, view_);
-    fillUniformBlock(shadowBlock_, shadow_);
-    fillUniformBlock(lookBlock_, lookOf(scene_));
-    bindConstants();
+MapSettings Renderer::mapSettings(const FrameSettings& settings, std::size_t view) const {
+    if (!settings.maps.empty()) return settings.maps[view];
+    const LightView& own = fitted_[view];
+    if (view == 0)
+        return {settings.resolution, settings.radiusUv, settings.minRadiusUv, settings.fadeWeight,
+                settings.fadeFrom};
+    const double radius = own.light > 0 ? own.softnessUv
+                                        : static_cast<double>(settings.radiusUv) *
+                                              fitted_.front().window.extentM / own.window.extentM;
+    return {.resolution = settings.resolution, .radiusUv = static_cast<float>(std::min(radius, 1.0))};
 }
 
 void Renderer::reload(const ShaderLibrary& shaders) {
     Program depth = makeProgram(shaders, "passes/depth.vert", "passes/depth.frag", {});
     Program prepass = makeProgram(shaders, "passes/prepass.vert", "passes/prepass.frag", {});
+    Program lampDepth = makeProgram(shaders, "passes/depth.vert", "passes/depth.frag",
+                                    {.defines = {{"LAMP", "1"}}, .substitutions = {}});
     Program lit = makeProgram(shaders, "passes/fullscreen.vert", "passes/lit.frag", {});
-    std::vector<Program> lookups(techniques().size());
+    Program lampLit =
+        makeProgram(shaders, "passes/fullscreen.vert", "passes/lit.frag",
+                    {.defines = {{"MOST_LAMPS", std::to_string(kMostLamps)}}, .substitutions = {}});
+    std::vector<Program> lookups(lookupPrograms_.size());
     MapFilter mapFilter(shaders);
     ShaderLibrary own = shaders;
     for (std::size_t row = 0; row < lookups.size(); ++row) {
         if (lookupPrograms_[row].name() == 0) continue;
-        lookups[row] = makeLookupProgram(shaders, techniques()[row]);
-        mapFilter.prepare(techniques()[row]);
+        const Technique& technique = techniques()[row % techniques().size()];
+        lookups[row] = makeLookupProgram(shaders, technique, row >= techniques().size());
+        mapFilter.prepare(technique);
     }
-    depthCounter_.reload(shaders);
+    for (const auto& counter : depthCounters_) counter->reload(shaders);
     // Nothing below throws.
     shaders_ = std::move(own);
     depthProgram_ = std::move(depth);
+    lampDepthProgram_ = std::move(lampDepth);
     prepassProgram_ = std::move(prepass);
     litProgram_ = std::move(lit);
+    lampLitProgram_ = std::move(lampLit);
     lookupPrograms_ = std::move(lookups);
     mapFilter_ = std::move(mapFilter);
 }
 
 void Renderer::prepare(const Technique& technique) {
-    lookupProgram(technique);
+    for (const LightView& view : views_)
+        lookupProgram(technique, view.window.part != kAllReceivers);
     mapFilter_.prepare(technique);
 }
 
-const Program& Renderer::lookupProgram(const Technique& technique) {
+const Program& Renderer::lookupProgram(const Technique& technique, bool ofPart) {
     const auto row = static_cast<std::size_t>(&technique - techniques().data());
-    Program& program = lookupPrograms_.at(row);
-    if (program.name() == 0) program = makeLookupProgram(shaders_, technique);
+    Program& program = lookupPrograms_.at(ofPart ? techniques().size() + row : row);
+    if (program.name() == 0) program = makeLookupProgram(shaders_, technique, ofPart);
     return program;
 }
 
 void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     settings.validate(info_);
+    if (!settings.maps.empty() && settings.maps.size() != fitted_.size())
+        rejectSetting("maps", std::to_string(settings.maps.size()) + " long",
+                      "one for each of the frame's " + std::to_string(fitted_.size()) + " maps");
     const Technique& technique =
         settings.technique != nullptr ? *settings.technique : techniques().front();
     prepare(technique);
     if (technique.prefilter == Prefilter::none) mapFilter_.release();
-    if (!hasLayers(technique)) depthCounter_.forget();  // its count is of an earlier light
-    const bool fades = settings.fadeWeight < 1;
-    ensureMap(fades ? std::max(settings.resolution, settings.fadeFrom) : settings.resolution);
-    lastFrameSoft_ = technique.soft && settings.radiusUv > 0;
+    if (!hasLayers(technique)) forgetDepths();  // their count is of an earlier light
+    int smallest = info_.maxResolution, largest = 0;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        const MapSettings map = mapSettings(settings, view);
+        const int other = map.fadeWeight < 1 ? map.fadeFrom : map.resolution;
+        ensureMap(view, std::max(map.resolution, other));
+        smallest = std::min({smallest, map.resolution, other});
+        largest = std::max({largest, map.resolution, other});
+    }
+    // Maps of several sizes are filtered in the same textures.
+    filterSpare_ = smallest == largest ? reservedEdge_ : std::max(largest, reservedEdge_);
     lastTechnique_ = &technique;
+    shadows_.resize(views_.size());
+    while (shadowBlocks_.size() < views_.size())
+        shadowBlocks_.push_back(makeUniformBlock(f32::ShadowConstants{}, "shadow constants"));
     updateConstants(settings);
     {
         const PassScope scope(Pass::prepass, clock);
         drawPrepass();
     }
-    if (fades) {
-        // First, so that the map of this frame is the one that later passes find. Its passes go
-        // untimed: a clock has one time for each.
-        FrameSettings leaving = settings;
-        leaving.resolution = settings.fadeFrom;
-        updateConstants(leaving);
-        drawShadows(leaving, technique, 1, nullptr);
-        updateConstants(settings);
+    clearVisibilities();
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        const MapSettings map = mapSettings(settings, view);
+        if (map.fadeWeight < 1) {
+            // First, so that the map of this frame is the one that later passes find.
+            setShadowConstants(settings, view, map.fadeFrom);
+            drawShadows(settings, technique, view, 1, clock);
+            setShadowConstants(settings, view, map.resolution);
+        }
+        drawShadows(settings, technique, view, map.fadeWeight, clock);
     }
-    drawShadows(settings, technique, settings.fadeWeight, clock);
     if (settings.lit) {
+        if (views_.size() > 1) bindConstants();
         const PassScope scope(Pass::lit, clock);
         drawLit();
     }
     throwOnGlError();
 }
 
-void Renderer::drawShadows(const FrameSettings& settings, const Technique& technique, float weight,
-                           PassClock* clock) {
+void Renderer::drawShadows(const FrameSettings& settings, const Technique& technique,
+                           std::size_t view, float weight, PassClock* clock) {
+    bindConstants(view);
     {
         const PassScope scope(Pass::depth, clock);
-        drawCasters(mapTarget_, settings.resolution);
+        drawCasters(maps_[view].target, static_cast<int>(shadows_[view].map.x), view);
     }
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
-        const ParameterValues parameters =
-            withLayers(technique, settings.parameters.value_or(technique.standardParameters()));
-        // Both maps of a fade in one texture.
-        mapFilter_.run(technique, parameters, shadow_, map_,
-                       settings.fadeWeight < 1 ? mapEdge_ : reservedEdge_);
+        const ParameterValues parameters = withLayers(
+            technique, settings.parameters.value_or(technique.standardParameters()), view);
+        mapFilter_.run(technique, parameters, shadows_[view], maps_[view].depths, filterSpare_);
     }
     const PassScope scope(Pass::lookup, clock);
-    drawLookup(technique, weight);
+    drawLookup(technique, view, weight);
 }
 
-void Renderer::drawCasters(const Framebuffer& target, int edge) const {
+void Renderer::drawCasters(const Framebuffer& target, int edge, std::size_t view) const {
+    const bool lamp = views_.at(view).window.lampAt.has_value();
     glBindFramebuffer(GL_FRAMEBUFFER, target.name());
     glViewport(0, 0, edge, edge);
     // The sub-rectangle alone: clearing a large texture costs more than drawing a small map.
@@ -438,26 +561,35 @@ void Renderer::drawCasters(const Framebuffer& target, int edge) const {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
-    glEnable(GL_DEPTH_CLAMP);
+    if (!lamp) glEnable(GL_DEPTH_CLAMP);
     const float farthest = 1;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
-    glUseProgram(depthProgram_.name());
+    glUseProgram(lamp ? lampDepthProgram_.name() : depthProgram_.name());
     glBindVertexArray(geometry_.name());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indexCount_), GL_UNSIGNED_INT, nullptr);
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
 }
 
-ParameterValues Renderer::withLayers(const Technique& technique, const ParameterValues& asked) {
+ParameterValues Renderer::withLayers(const Technique& technique, const ParameterValues& asked,
+                                     std::size_t view) {
     if (!hasLayers(technique)) return asked;
-    const int resolution = static_cast<int>(shadow_.map.x);
-    const Layers layers =
-        placeLayers(technique, asked, depthCounter_.count(shaders_, map_, resolution));
-    useLayers(technique, layers, shadow_);
-    fillUniformBlock(shadowBlock_, shadow_);
+    f32::ShadowConstants& shadow = shadows_[view];
+    while (depthCounters_.size() < views_.size())
+        depthCounters_.push_back(std::make_unique<DepthCounter>());
+    const Layers layers = placeLayers(
+        technique, asked,
+        depthCounters_[view]->count(shaders_, maps_[view].depths, static_cast<int>(shadow.map.x)));
+    useLayers(technique, layers, shadow);
+    fillUniformBlock(shadowBlocks_[view], shadow);
     ParameterValues values = asked;
     values[technique.parameterSlot("layers").value()] = static_cast<float>(layers.count);
     return values;
+}
+
+void Renderer::forgetDepths() {
+    for (const auto& counter : depthCounters_) counter->forget();
 }
 
 void Renderer::drawPrepass() {
@@ -487,17 +619,25 @@ void Renderer::drawPrepass() {
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::drawLookup(const Technique& technique, float weight) {
+void Renderer::clearVisibilities() {
+    const float lit = 1;
+    for (const LightView& view : views_)
+        if (view.window.part != kAllReceivers)
+            glClearNamedFramebufferfv(visibilityTargets_[view.light].name(), GL_COLOR, 0, &lit);
+}
+
+void Renderer::drawLookup(const Technique& technique, std::size_t view, float weight) {
     if (weight < 1) {
         glEnable(GL_BLEND);
         glBlendColor(0, 0, 0, weight);
         glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, visibilityTarget_.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, visibilityTargets_[views_[view].light].name());
     glViewport(0, 0, widthPx_, heightPx_);
     const bool filtered = technique.prefilter != Prefilter::none;
-    bindTextures({positions_.name(), planes_.name(), filtered ? mapFilter_.map() : map_.name()});
-    glUseProgram(lookupProgram(technique).name());
+    bindTextures({positions_.name(), planes_.name(),
+                  filtered ? mapFilter_.map() : maps_[view].depths.name()});
+    glUseProgram(lookupProgram(technique, views_[view].window.part != kAllReceivers).name());
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_BLEND);
@@ -506,9 +646,17 @@ void Renderer::drawLookup(const Technique& technique, float weight) {
 void Renderer::drawLit() {
     glBindFramebuffer(GL_FRAMEBUFFER, litTarget_.name());
     glViewport(0, 0, widthPx_, heightPx_);
-    bindTextures(
-        {positions_.name(), planes_.name(), normals_.name(), albedos_.name(), visibility_.name()});
-    glUseProgram(litProgram_.name());
+    bindTextures({positions_.name(), planes_.name(), normals_.name(), albedos_.name(),
+                  visibilities_[0].name()});
+    if (scene_.lamps.empty()) {
+        glUseProgram(litProgram_.name());
+    } else {
+        glUseProgram(lampLitProgram_.name());
+        glBindTextureUnit(5, lampVisibilities_.name());
+        const std::vector<glm::vec4> lamps = lampConstants(scene_.lamps, glm::vec3(view_.eye));
+        glUniform1i(0, static_cast<GLint>(scene_.lamps.size()));
+        glUniform4fv(1, static_cast<GLsizei>(lamps.size()), glm::value_ptr(lamps.front()));
+    }
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

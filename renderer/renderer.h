@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A frame: depth pass (the light's map at N x N), prefilter of that map where the technique has
-// one, prepass (visible surfaces), lookup pass (visibility of every pixel, into its own target),
-// lit pass. It renders whatever N, radius and technique it is given and knows nothing of how they
-// were chosen; demand_pass.h counts what a chooser needs to know of the frame.
+// A frame: prepass (visible surfaces), then for every map of every light (light_views.h) depth pass
+// (the map at N x N), prefilter of that map where the technique has one, and lookup pass (visibility
+// of the pixels that the map serves, into the light's own target); lit pass. It renders whatever N,
+// radius and technique it is given and knows nothing of how they were chosen; demand_pass.h counts
+// what a chooser needs to know of the frame.
 //
 //   renderer::HeadlessContext context;
 //   renderer::Renderer renderer(context.info(), renderer::makeScene("yard"), 1280, 720);
@@ -10,18 +11,20 @@
 //   .radiusUv = .004F}); const renderer::ByteImage picture = renderer.readLit();
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/depth_counter.h"
 #include "renderer/gl_context.h"
 #include "renderer/gl_object.h"
 #include "renderer/image.h"
+#include "renderer/light_views.h"
 #include "renderer/map_filter.h"
 #include "renderer/pass_clock.h"
 #include "renderer/scene.h"
 #include "renderer/shader_library.h"
-#include "renderer/shadow_window.h"
 #include "renderer/technique.h"
 
 namespace renderer {
@@ -29,9 +32,14 @@ namespace renderer {
 /// What a light's map covers: all casters, or of them what throws shadows into the view.
 enum class WindowFit { casters, view };
 
-/// Room around a window narrowed to the view, in softnesses: a kernel that grows with the distance
-/// of its casters, as that of PCSS, gets this wide.
-inline constexpr double kReachOfSoftness = 4;
+/// Of one map, where a frame's maps differ.
+struct MapSettings {
+    int resolution = 1024;  ///< as in FrameSettings
+    float radiusUv = 0;
+    float minRadiusUv = 0;
+    float fadeWeight = 1;
+    int fadeFrom = 1024;
+};
 
 struct FrameSettings {
     const Technique* technique = nullptr;            ///< null: the table's first
@@ -45,6 +53,10 @@ struct FrameSettings {
     /// of a map with N = fadeFrom, drawn before it. 1: no fade, fadeFrom is not looked at.
     float fadeWeight = 1;
     int fadeFrom = 1024;
+    /// One for each of lightViews(), in place of size, radii and fade above; empty: all maps have the
+    /// same N, and only the sun's first has a least radius and a fade. Its blur in metres is that of
+    /// all cascades; a lamp's is its softness.
+    std::vector<MapSettings> maps = {};
 
     /// Throws std::invalid_argument that names the field, its value and its range.
     void validate(const GlInfo& info) const;
@@ -75,17 +87,25 @@ class Renderer {
     /// How far across the light the widest kernel reads, m, so that a window narrowed to what is
     /// seen has room for it; at first kReachOfSoftness times the scene's softness.
     void setReach(double reachM);
-    /// The window of another view of the same scene under the same light, to compare the two; until
-    /// camera, sun, size, fit or reach change.
-    void setWindow(const ShadowWindow& window);
-    /// From now on the map's texture has at least this edge, and a smaller N takes a sub-rectangle
+    /// Maps of the sun, 1 to kMostCascades: each serves a stretch of the view.
+    void setCascades(int count);
+    /// At most kMostLamps. Throws std::invalid_argument for one that cannot be drawn.
+    void setLamps(std::vector<Lamp> lamps);
+    /// Those of another frame of the same view, to compare the two; until camera, lights, size, fit
+    /// or reach change.
+    void setLightViews(std::span<const LightView> views);
+    /// From now on every map's texture has at least this edge, and a smaller N takes a sub-rectangle
     /// of it; 0 (the default) makes the texture anew whenever N changes, exactly as large as the
     /// map.
     void reserveMap(int edge);
 
     const Scene& scene() const { return scene_; }
-    /// As the last frame had it; its extent is already that of the next one.
-    const ShadowWindow& window() const { return window_; }
+    /// All maps of a frame, the sun's first. As the last frame had them; their extents are already
+    /// those of the next one.
+    std::span<const LightView> lightViews() const { return views_; }
+    /// The sun's, or its first cascade's.
+    const ShadowWindow& window() const { return views_.front().window; }
+    std::size_t lights() const { return 1 + scene_.lamps.size(); }
     int widthPx() const { return widthPx_; }
     int heightPx() const { return heightPx_; }
 
@@ -102,17 +122,18 @@ class Renderer {
         const Technique* technique = nullptr;  ///< never null
         bool hasKernel = false;                ///< the technique's, of a radius above 0
     };
-    std::optional<Outputs> outputs() const;
-    /// Binds the last frame's uniform blocks for such a pass.
-    void bindConstants() const;
+    /// Those of one of lightViews(): its map, and its light's visibility.
+    std::optional<Outputs> outputs(std::size_t view = 0) const;
+    /// Binds the last frame's uniform blocks for such a pass, those of one of lightViews().
+    void bindConstants(std::size_t view = 0) const;
     /// The depths of the casters into the lower left corner of a target, `edge` texels wide, under
-    /// the shadow block that is bound.
-    void drawCasters(const Framebuffer& target, int edge) const;
+    /// the shadow block that is bound, which is of a view or of a part of it.
+    void drawCasters(const Framebuffer& target, int edge, std::size_t view = 0) const;
 
-    ByteImage readLit();          ///< sRGB codes, 3 channels
-    FloatImage readVisibility();  ///< 1 lit
-    FloatImage readShadowMap();   ///< N x N linear depth
-    /// What the lookup read; empty after a technique without prefilter.
+    ByteImage readLit();                                ///< sRGB codes, 3 channels
+    FloatImage readVisibility(std::size_t light = 0);   ///< 1 lit
+    FloatImage readShadowMap(std::size_t view = 0);     ///< N x N linear depth
+    /// What the lookup read, of the last of lightViews(); empty after a technique without prefilter.
     FilteredTexels readFilteredMap();
     FloatImage readPositions();  ///< 4 channels: relative to the eye; w 0 is sky
     FloatImage readPlanes();     ///< 4 channels: unit normal of the triangle
@@ -120,7 +141,9 @@ class Renderer {
 
     /// As the last frame had them: the CPU evaluates the same pixels with these.
     const f32::ViewConstants& viewConstants() const { return view_; }
-    const f32::ShadowConstants& shadowConstants() const { return shadow_; }
+    const f32::ShadowConstants& shadowConstants(std::size_t view = 0) const {
+        return shadows_.at(view);
+    }
 
     std::size_t mapBytes() const;     ///< of the last frame's map and what it was filtered in
     std::size_t targetBytes() const;  ///< of everything that has the viewport's size
@@ -133,19 +156,26 @@ class Renderer {
         std::size_t firstIndex = 0;
     };
 
-    void fitWindow();
+    void fitViews();
+    void makeVisibilities();
     void uploadScene();
+    MapSettings mapSettings(const FrameSettings& settings, std::size_t view) const;
     void updateConstants(const FrameSettings& settings);
-    void ensureMap(int resolution);
-    const Program& lookupProgram(const Technique& technique);
-    /// Depth pass, prefilter and lookup, added to the visibility with the weight.
-    void drawShadows(const FrameSettings& settings, const Technique& technique, float weight,
-                     PassClock* clock);
+    void setShadowConstants(const FrameSettings& settings, std::size_t view, int resolution);
+    void ensureMap(std::size_t view, int resolution);
+    const Program& lookupProgram(const Technique& technique, bool ofPart);
+    /// Of one view: depth pass, prefilter and lookup, added to the visibility with the weight.
+    void drawShadows(const FrameSettings& settings, const Technique& technique, std::size_t view,
+                     float weight, PassClock* clock);
+    void drawLookup(const Technique& technique, std::size_t view, float weight);
     /// The parameters of a layered technique with the layers that the map asks for, entered into
     /// the shadow block; those of others as they are.
-    ParameterValues withLayers(const Technique& technique, const ParameterValues& asked);
+    ParameterValues withLayers(const Technique& technique, const ParameterValues& asked,
+                               std::size_t view);
+    void forgetDepths();
     void drawPrepass();
-    void drawLookup(const Technique& technique, float weight);
+    /// Of the lights whose maps serve a part of the pixels each.
+    void clearVisibilities();
     void drawLit();
 
     GlInfo info_;
@@ -153,9 +183,9 @@ class Renderer {
     Scene scene_;
     WindowFit windowFit_ = WindowFit::view;
     double reachM_ = 0;
-    std::optional<int> windowStep_;  // extent of the window before
-    ShadowWindow fitted_;            // before it is moved to the texel grid
-    ShadowWindow window_;
+    std::vector<std::optional<int>> windowSteps_;  // extents of the sun's windows before
+    std::vector<LightView> fitted_;                // before they are moved to their texel grids
+    std::vector<LightView> views_;
     int widthPx_ = 0;
     int heightPx_ = 0;
 
@@ -164,24 +194,32 @@ class Renderer {
     std::vector<DrawRange> ranges_;
     std::size_t indexCount_ = 0;
 
-    Buffer viewBlock_, shadowBlock_, lookBlock_;
+    Buffer viewBlock_, lookBlock_;
+    std::vector<Buffer> shadowBlocks_;  // one for each view
     f32::ViewConstants view_{};
-    f32::ShadowConstants shadow_{};
-    const Technique* lastTechnique_ = nullptr;  // null before the first frame
-    bool lastFrameSoft_ = false;
+    std::vector<f32::ShadowConstants> shadows_;  // one for each view
+    const Technique* lastTechnique_ = nullptr;   // null before the first frame
 
-    Program depthProgram_, prepassProgram_, litProgram_;
-    std::vector<Program>
-        lookupPrograms_;  // one per row of the technique table, made when first used
+    Program depthProgram_, lampDepthProgram_, prepassProgram_, litProgram_, lampLitProgram_;
+    /// Made when first used: for every row of the technique table one for a map that serves all
+    /// pixels, then for every row one for a map that serves a part of them.
+    std::vector<Program> lookupPrograms_;
 
     int reservedEdge_ = 0;
-    int mapEdge_ = 0;
-    Texture map_;
-    Framebuffer mapTarget_;
+    struct Map {
+        int edge = 0;
+        Texture depths;
+        Framebuffer target;
+    };
+    std::vector<Map> maps_;  // one for each view
     MapFilter mapFilter_;
-    DepthCounter depthCounter_;
-    Texture positions_, planes_, normals_, albedos_, surfaceDepth_, visibility_, lit_;
-    Framebuffer prepassTarget_, visibilityTarget_, litTarget_;
+    int filterSpare_ = 0;  // see MapFilter::run
+    std::vector<std::unique_ptr<DepthCounter>> depthCounters_;  // one for each view that has layers
+    Texture positions_, planes_, normals_, albedos_, surfaceDepth_, lit_;
+    Texture lampVisibilities_;           // a layer for each lamp
+    std::vector<Texture> visibilities_;  // the sun's own and views of those layers
+    std::vector<Framebuffer> visibilityTargets_;
+    Framebuffer prepassTarget_, litTarget_;
 };
 
 }  // namespace renderer

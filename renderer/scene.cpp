@@ -33,6 +33,8 @@ constexpr SceneEntry kScenes[] = {
      "grazing light on receivers that are casters, over a large extent", terrain},
     {"knob", "a turned knob with a hollow neck, and a bowl",
      "rings where a kernel cuts into hollow surfaces", knob},
+    {"lamps", "posts around a point lamp, a sphere under a spot, and little sun",
+     "several lights with perspective maps, and the edges of a cube's faces", lamps},
 };
 
 constexpr std::size_t kMostTriangles = 4'000'000;
@@ -52,22 +54,38 @@ float withinHeight(float at, float swing, double place) {
     return swing == 0 ? at : std::clamp(at + swung(swing, place), kLeastAngleDeg, kMostAngleDeg);
 }
 
-/// "triangles=COUNT" after a scene's name.
-std::size_t trianglesOf(std::string_view source, std::string_view option, std::size_t own) {
-    constexpr std::string_view kName = "triangles=";
-    const std::string where = "scene \"" + std::string(source) + "\": ";
-    if (!option.starts_with(kName))
-        throw std::invalid_argument(where + "option \"" + std::string(option) +
-                                    "\" is not known; known is triangles=COUNT");
-    const std::string_view number = option.substr(kName.size());
+/// The value of an option of a source. `range` is how a sentence calls it.
+std::size_t optionValue(std::string_view source, std::string_view option, std::size_t least,
+                        std::size_t most, const std::string& range) {
+    const std::size_t equals = option.find('=');
+    const std::string_view number = option.substr(equals + 1);
     std::size_t count = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
-    if (error != std::errc() || end != number.data() + number.size() || count < own ||
-        count > kMostTriangles)
-        throw std::invalid_argument(where + "triangles is \"" + std::string(number) +
-                                    "\", must be a whole number from " + std::to_string(own) +
-                                    ", the scene's own, to " + std::to_string(kMostTriangles));
+    if (error != std::errc() || end != number.data() + number.size() || count < least ||
+        count > most)
+        throw std::invalid_argument("scene \"" + std::string(source) + "\": " +
+                                    std::string(option.substr(0, equals)) + " is \"" +
+                                    std::string(number) + "\", must be a whole number from " +
+                                    range);
     return count;
+}
+
+void splitCasters(Scene& scene, std::string_view option) {
+    const std::size_t own = casterTriangles(scene);
+    const std::size_t asked = optionValue(scene.source, option, own, kMostTriangles,
+                                          std::to_string(own) + ", the scene's own, to " +
+                                              std::to_string(kMostTriangles));
+    const double ratio = static_cast<double>(asked) / static_cast<double>(own);
+    const int parts = static_cast<int>(std::lround(std::sqrt(ratio)));
+    for (SceneObject& object : scene.objects)
+        if (object.casts) object.mesh = split(object.mesh, parts);
+    scene.name += "_" + std::to_string(casterTriangles(scene)) + "_triangles";
+}
+
+void setCascades(Scene& scene, std::string_view option) {
+    scene.cascades = static_cast<int>(
+        optionValue(scene.source, option, 1, kMostCascades, "1 to " + std::to_string(kMostCascades)));
+    scene.name += "_" + std::to_string(scene.cascades) + "_cascades";
 }
 
 }  // namespace
@@ -140,19 +158,24 @@ const SceneEntry& findScene(std::string_view source) {
 }
 
 Scene makeScene(std::string_view source) {
-    const std::size_t colon = source.find(':');
     const SceneEntry& entry = findScene(source);
     Scene scene = entry.make();
     scene.name = entry.name;
     scene.source = source;
-    if (colon == std::string_view::npos) return scene;
-    const std::size_t own = casterTriangles(scene);
-    const std::size_t asked = trianglesOf(source, source.substr(colon + 1), own);
-    const double ratio = static_cast<double>(asked) / static_cast<double>(own);
-    const int parts = static_cast<int>(std::lround(std::sqrt(ratio)));
-    for (SceneObject& object : scene.objects)
-        if (object.casts) object.mesh = split(object.mesh, parts);
-    scene.name += "_" + std::to_string(casterTriangles(scene)) + "_triangles";
+    for (std::size_t colon = source.find(':'); colon != std::string_view::npos;) {
+        const std::size_t next = source.find(':', colon + 1);
+        const std::string_view option = source.substr(colon + 1, next - colon - 1);
+        if (option.starts_with("triangles="))
+            splitCasters(scene, option);
+        else if (option.starts_with("cascades="))
+            setCascades(scene, option);
+        else
+            throw std::invalid_argument("scene \"" + scene.source + "\": option \"" +
+                                        std::string(option) +
+                                        "\" is not known; known are triangles=COUNT and "
+                                        "cascades=COUNT");
+        colon = next;
+    }
     return scene;
 }
 

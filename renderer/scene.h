@@ -56,6 +56,19 @@ struct Sun {
     glm::vec3 towards() const;  ///< unit vector to the sun
 };
 
+/// A light among the things: a spot that shines into a cone, or a point that shines to all sides.
+struct Lamp {
+    enum class Kind { spot, point };
+    Kind kind = Kind::spot;
+    glm::vec3 position{0, 3, 0};
+    glm::vec3 target{0};     ///< of a spot: a point on its axis, not the position
+    float coneDeg = 60;      ///< of a spot: from side to side, (0, 150]
+    glm::vec3 colour{8.0F};  ///< linear light on a surface that faces it, 1 m away
+    float nearM = 0.05F;     ///< casters nearer than this throw no shadow, > 0
+    float farM = 20;         ///< nor do farther ones, > nearM
+    float softness = 0.01F;  ///< radius of the blur, as the tangent of an angle at the lamp, >= 0
+};
+
 /// Closed ways: the end is the beginning. `place` is how far along, [0,1), 0 where camera or sun
 /// stand without the path. A turn of 360 goes once round, a smaller one from side to side; swings
 /// go up and down once.
@@ -80,11 +93,16 @@ struct Scene {
     CameraPath cameraPath;
     Sun sun;
     SunPath sunPath;
+    int cascades = 1;         ///< maps of the sun, each for a stretch of the view, 1 .. kMostCascades
+    std::vector<Lamp> lamps;  ///< at most kMostLamps
     Bounds casters;  ///< what throws shadows; the light's window is fitted to it
     double softnessM =
         0.05;          ///< radius of the shadow's blur, in metres across the light's direction
     float hazeM = 60;  ///< distance at which haze takes half of the light
 };
+
+inline constexpr std::size_t kMostLamps = 63;
+inline constexpr int kMostCascades = 8;
 
 /// Triangles of the objects that cast.
 std::size_t casterTriangles(const Scene& scene);
@@ -102,9 +120,10 @@ std::span<const SceneEntry> builtInScenes();
 /// at. Throws std::invalid_argument that lists the known names.
 const SceneEntry& findScene(std::string_view source);
 
-/// A built-in scene by its name, or NAME:triangles=COUNT for the same picture with its casters split
-/// into about as many triangles, from their own number to 4,000,000. Throws std::invalid_argument
-/// for an unknown name or option and a count out of range.
+/// A built-in scene by its name, with options after colons: NAME:triangles=COUNT is the same picture
+/// with its casters split into about as many triangles, from their own number to 4,000,000;
+/// NAME:cascades=COUNT has as many maps of the sun. Throws std::invalid_argument for an unknown name
+/// or option and a count out of range.
 Scene makeScene(std::string_view source);
 
 }  // namespace renderer

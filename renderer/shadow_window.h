@@ -19,11 +19,25 @@
 
 namespace renderer {
 
+/// Which receivers a map serves (shared/constants.glsl).
+struct ViewPart {
+    double fromM = -1e30, toM = 1e30;  ///< distance along the view axis
+    double halfWidthUv = 1e30;         ///< from the map's middle
+
+    bool operator==(const ViewPart&) const = default;
+};
+/// Every receiver.
+inline constexpr ViewPart kAllReceivers{};
+
 struct ShadowWindow {
     glm::dmat4 shadowFromWorld{1};  ///< to (u, v, depth, 1)
     double extentM = 1;             ///< edge of the square, m: r_uv = softness in m / extentM
     double depthRangeM = 1;         ///< what depth 0..1 spans, m
-    glm::vec3 towardsLight{0, 1, 0};
+    glm::vec3 towardsLight{0, 1, 0};        ///< of the sun
+    std::optional<glm::dvec3> lampAt = {};  ///< of a lamp; then shadowFromWorld is a projection, and
+                                            ///< extentM the map's width 1 m away
+    double nearM = 0;                       ///< of a lamp: where depth 0 is, along the map's axis
+    ViewPart part = {};
     bool narrowed = false;  ///< to what is seen: the square moves with the camera
 };
 

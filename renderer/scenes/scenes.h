@@ -15,6 +15,7 @@ Scene foliage();
 Scene city();
 Scene terrain();
 Scene knob();
+Scene lamps();
 
 /// Paved ground around the origin that throws no shadow.
 SceneObject paving(float halfExtent = 64, int cells = 64);

@@ -82,8 +82,15 @@ std::string refusal(const std::string& source) {
 
 TEST(Scene, RefusesUnknownOptionsAndCountsInOneSentence) {
     EXPECT_EQ(refusal("yard:colour=red"),
-              "scene \"yard:colour=red\": option \"colour=red\" is not known; known is "
-              "triangles=COUNT");
+              "scene \"yard:colour=red\": option \"colour=red\" is not known; known are "
+              "triangles=COUNT and cascades=COUNT");
+    for (const char* count : {"", "0", "9", "2.5"})
+        EXPECT_EQ(refusal("yard:cascades=" + std::string(count)),
+                  "scene \"yard:cascades=" + std::string(count) + "\": cascades is \"" + count +
+                      "\", must be a whole number from 1 to 8");
+    const renderer::Scene both = renderer::makeScene("city:cascades=3:triangles=64000");
+    EXPECT_EQ(both.cascades, 3);
+    EXPECT_GT(casterTriangles(both), 50000U);
     for (const char* count : {"", "x", "-5", "10", "1e6", "5000000", "99999999999999999999999"})
         EXPECT_NE(refusal("city:triangles=" + std::string(count))
                       .find("triangles is \"" + std::string(count) +

@@ -1,3 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Depth pass: nothing but depth is stored.
-void main() {}
+#ifdef LAMP
+in float lightDepth;
+#endif
+
+void main() {
+#ifdef LAMP
+    gl_FragDepth = lightDepth;
+#endif
+}

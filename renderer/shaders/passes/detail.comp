@@ -56,6 +56,7 @@ float pixelDetail(ivec2 pixel) {
     if (position.w == 0.0) return 0.0;
     ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
     if (!receiver.facesLight) return 0.0;
+    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) return 0.0;
     vec2 place = receiver.uv * shadow.map.x;
     if (!(all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(shadow.map.x))))) return 0.0;
     ivec2 texel = ivec2(place);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lookup pass: the technique's visibility of every pixel, into a target of its own, so that errors are measured on
-// visibility and not on shaded colour. 1 is lit; the sky is lit.
+// visibility and not on shaded colour. 1 is lit; the sky is lit. PART: of a map that serves some receivers only; the
+// other pixels keep what they have.
 #include "shared/filters.glsl"
 #include "technique"
 
@@ -16,5 +17,8 @@ void main() {
     outVisibility = 1.0;
     if (position.w == 0.0) return;
     ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
+#ifdef PART
+    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) discard;
+#endif
     outVisibility = receiver.facesLight ? filterVisibility(shadowMap, receiver, shadow) : 0.0;
 }

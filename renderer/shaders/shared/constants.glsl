@@ -17,12 +17,16 @@ struct ViewConstants {
 struct ShadowConstants {
     real4x4 shadowFromEyeRelative;  // to (u w, v w, depth, w): depth is linear in [0,1], 0 near, and not divided by w
     real4x4 shadowFromWorld;        // the same from world positions, for the depth pass
-    real4 towardsLight;             // xyz unit vector to the light
+    real4 towardsLight;             // xyz unit vector to the sun; with w 1 the lamp's place relative to the eye
     real4 map;                      // x resolution N in texels, y 1/N, z 1/(edge of the texture that holds the map);
                                     // w (far - near) / near of a light that is a point, 0 of the sun
     real4 kernel;                   // x radius, y least radius where texels show, both as a fraction of the map's extent;
                                     // z samples along a screen pixel's edge (1 but for antialiased pictures)
     real4 parameters[2];            // of the technique, in the order of its table row
+    real4 scale;                    // of a lamp: x least distance, y that depth 0..1 spans beyond it, in m along the
+                                    // map's axis; z the map's width, in m (of a lamp: at 1 m); w 1 for a lamp
+    real4 part;                     // the receivers that this map serves: x, y from and up to which distance along the
+                                    // view axis in m, z how far from the map's middle in uv
     real4 prefilter;                // x the kernel's standard deviation in texels, y 1 if it is a Gaussian and 0 if a box,
                                     // z texels of the guard band; w 1 if a texel is split into high and low parts,
                                     // or minus the levels of a mip chain above its first, or minus the units of summed

@@ -27,19 +27,21 @@ bool changesBeside(ivec2 pixel, vec3 position, vec3 plane, float visibility) {
         if (any(lessThan(beside, ivec2(0))) || any(greaterThanEqual(beside, ivec2(view.viewport.xy)))) continue;
         if (abs(texelFetch(visibilities, beside, 0).x - visibility) <= kVisibleShare) continue;
         vec4 other = texelFetch(positions, beside, 0);
-        if (other.w == 0.0 || dot(texelFetch(planes, beside, 0).xyz, shadow.towardsLight.xyz) <= 0.0) continue;
+        if (other.w == 0.0 || dot(texelFetch(planes, beside, 0).xyz, towardsLight(other.xyz, shadow)) <= 0.0) continue;
         vec3 way = other.xyz - position;
         if (abs(dot(way, plane)) <= 0.5 * length(way)) return true;
     }
     return false;
 }
 
-// Of the shadow's edge: how far apart full light and full shadow are on the display, black to white being 1.
+// Of the edge of a shadow of the sun: how far apart full light and full shadow are on the display, black to white being
+// 1. Without lamps, which could only lessen it. A lamp's shadows count as black on white.
 float shadowContrast(ivec2 pixel, vec3 position, float gloss) {
     SurfaceLook surface =
         SurfaceLook(position, texelFetch(normals, pixel, 0).xyz, texelFetch(albedos, pixel, 0).rgb, gloss);
     vec3 ray = pixelRay(vec2(pixel) + 0.5);
-    vec3 range = displayCode(surfaceColour(surface, ray, 1.0)) - displayCode(surfaceColour(surface, ray, 0.0));
+    vec3 range = displayCode(surfaceColour(surface, ray, 1.0, vec3(0.0))) -
+                 displayCode(surfaceColour(surface, ray, 0.0, vec3(0.0)));
     return dot(range, vec3(0.2126, 0.7152, 0.0722));
 }
 
@@ -50,6 +52,7 @@ float pixelDemand(ivec2 pixel) {
     vec4 plane = texelFetch(planes, pixel, 0);
     ShadowReceiver receiver = shadowReceiver(position.xyz, plane.xyz, view, shadow);
     if (!receiver.facesLight || !onMap(receiver.uv)) return -1.0;
+    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) return -1.0;
     float visibility = texelFetch(visibilities, pixel, 0).x;
     bool between = inPenumbra(visibility);
     if (!between && !changesBeside(pixel, position.xyz, plane.xyz, visibility)) return -1.0;
@@ -58,6 +61,6 @@ float pixelDemand(ivec2 pixel) {
     bool wide = hasKernel != 0u && max(radius, shadow.kernel.y) >= receiver.footprintUv;
     if (wide && !between) return -1.0;
     StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);
-    float contrast = rule.z == 0.0 ? 1.0 : shadowContrast(pixel, position.xyz, plane.w);
+    float contrast = rule.z == 0.0 || shadow.towardsLight.w != 0.0 ? 1.0 : shadowContrast(pixel, position.xyz, plane.w);
     return stairwellDemand(asked, radius, receiver.footprintUv, contrast, 0.0);
 }

@@ -50,6 +50,11 @@ SHARED_FUNCTION real3 stepOnPlane(real3 eyeRelative, real3 planeNormal, real3 pi
     return pixelStep - eyeRelative * (dot(planeNormal, pixelStep) / facing);
 }
 
+// From the surface point, of any length.
+SHARED_FUNCTION real3 towardsLight(real3 eyeRelative, ShadowConstants shadow) {
+    return real3(shadow.towardsLight) - eyeRelative * shadow.towardsLight.w;
+}
+
 // eyeRelative: the surface point minus the eye. planeNormal: of the triangle, not the shading normal, turned to the
 // viewer.
 SHARED_FUNCTION ShadowReceiver shadowReceiver(real3 eyeRelative, real3 planeNormal, ViewConstants view,
@@ -77,8 +82,17 @@ SHARED_FUNCTION ShadowReceiver shadowReceiver(real3 eyeRelative, real3 planeNorm
     real2 stepY = real2(dot(gradientU, alongY), dot(gradientV, alongY));
     receiver.footprintUv = pixelFootprint(stepX, stepY);
     receiver.longestStep = dot(stepX, stepX) > dot(stepY, stepY) ? stepX : stepY;
-    receiver.facesLight = dot(planeNormal, real3(shadow.towardsLight)) > real(0.0);
+    receiver.facesLight = dot(planeNormal, towardsLight(eyeRelative, shadow)) > real(0.0);
     return receiver;
+}
+
+// Whether this map is the one for a receiver: of a cascade those in its stretch of the view, of a cube's face those in
+// its quarter, of a spot those in its square.
+SHARED_FUNCTION bool serves(ShadowReceiver receiver, real viewDistance, ShadowConstants shadow) {
+    if (!(viewDistance >= shadow.part.x && viewDistance < shadow.part.y)) return false;
+    // Behind the lamp uv are mirrored.
+    if (shadow.scale.w != real(0.0) && !(receiver.depth * shadow.scale.y + shadow.scale.x > real(0.0))) return false;
+    return abs(receiver.uv.x - real(0.5)) <= shadow.part.z && abs(receiver.uv.y - real(0.5)) <= shadow.part.z;
 }
 
 // Half a code value of a display: what lies nearer to light or shadow is one of them to any eye. Sums of weights leave

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a pixel looks for a given share of the sun: sky and ground light, haze and tone, as sRGB codes in [0,1]. Needs
+// How a pixel looks for a given share of the sun and the light of lamps: sky and ground light, haze and tone, as sRGB codes in [0,1]. Needs
 // blocks.glsl.
 
 struct SurfaceLook {
@@ -21,14 +21,14 @@ vec3 skyColour(vec3 direction) {
     return sky + look.sunColour.rgb * (0.03 * pow(towardsSun, 8.0) + 0.12 * pow(towardsSun, 64.0));
 }
 
-vec3 surfaceColour(SurfaceLook surface, vec3 ray, float visibility) {
+vec3 surfaceColour(SurfaceLook surface, vec3 ray, float visibility, vec3 fromLamps) {
     vec3 light = shadow.towardsLight.xyz;
     vec3 surround = mix(look.groundLight.rgb, look.skyLight.rgb, 0.5 + 0.5 * surface.normal.y);
     vec3 sun = look.sunColour.rgb * visibility;
     float diffuse = max(dot(surface.normal, light), 0.0);
     float sheen = pow(max(dot(surface.normal, normalize(light - ray)), 0.0), 4.0 + 120.0 * surface.gloss) *
                   surface.gloss;
-    vec3 lit = surface.albedo * (sun * diffuse + surround) + sun * (sheen * 0.5 * diffuse);
+    vec3 lit = surface.albedo * (sun * diffuse + surround + fromLamps) + sun * (sheen * 0.5 * diffuse);
 
     float distance = length(surface.eyeRelative);
     float haze = 1.0 - exp2(-(distance * distance) / (look.tone.y * look.tone.y));

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// Frames with several maps: lamps against rays, cascades against one map, maps of their own sizes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "renderer/cpu_filter.h"
+#include "renderer/renderer.h"
+#include "tests/renderer/image_check.h"
+
+namespace {
+
+using renderer::FloatImage;
+using renderer::Lamp;
+using renderer::Technique;
+using testing::HasSubstr;
+
+const renderer::GlInfo& gl() {
+    static const renderer::HeadlessContext context;
+    return context.info();
+}
+
+struct Ball {
+    glm::vec3 centre;
+    float radius;
+};
+// Around a lamp at (0, 1.2, 0): in the middle of a face of its cube, on an edge between two and at
+// a corner.
+constexpr Ball kBalls[] = {{{-1.3F, 0.5F, 0.1F}, 0.3F},
+                           {{1.1F, 0.6F, 1.1F}, 0.3F},
+                           {{0.7F, 0.45F, -0.75F}, 0.25F},
+                           {{0.15F, 0.3F, 0.9F}, 0.2F}};
+
+renderer::Scene ballScene(std::vector<Lamp> lamps) {
+    renderer::Scene scene;
+    scene.name = "balls";
+    scene.objects.push_back({"ground", renderer::groundPlane(8, 32), {}, false});
+    for (const Ball& ball : kBalls)
+        scene.objects.push_back({"ball", renderer::sphere(ball.centre, ball.radius, 128, 64), {}});
+    scene.casters = {{-2, 0, -2}, {2, 1, 2}};
+    scene.camera = {.pitchDeg = 55, .distanceM = 8, .verticalFieldDeg = 40};
+    scene.lamps = std::move(lamps);
+    return scene;
+}
+
+const Lamp kPoint{.kind = Lamp::Kind::point, .position = {0, 1.2F, 0}, .farM = 12};
+const Lamp kSpot{.position = {1.5F, 3, 2}, .target = {0, 0, 0}, .coneDeg = 70, .farM = 12};
+
+/// Whether a ball lies on the way from a point to a lamp.
+bool blocked(glm::dvec3 point, glm::dvec3 lamp) {
+    for (const Ball& ball : kBalls) {
+        const glm::dvec3 way = lamp - point;
+        const glm::dvec3 centre(ball.centre);
+        const double along =
+            std::clamp(glm::dot(centre - point, way) / glm::dot(way, way), 0.0, 1.0);
+        const double distance = glm::distance(point + along * way, centre);
+        // Points on a ball are not in its own way.
+        if (along > 1e-3 && distance < static_cast<double>(ball.radius) - 0.004) return true;
+    }
+    return false;
+}
+
+/// What a pixel shows, or nothing for the sky.
+struct Pixels {
+    FloatImage positions, planes;
+    glm::dvec3 eye;
+
+    explicit Pixels(renderer::Renderer& frame)
+        : positions(frame.readPositions()),
+          planes(frame.readPlanes()),
+          eye(frame.viewConstants().eye) {}
+    bool sky(int x, int y) const { return positions.at(x, y, 3) == 0; }
+    glm::dvec3 world(int x, int y) const {
+        return eye + glm::dvec3(positions.at(x, y, 0), positions.at(x, y, 1), positions.at(x, y, 2));
+    }
+    glm::dvec3 normal(int x, int y) const {
+        return {planes.at(x, y, 0), planes.at(x, y, 1), planes.at(x, y, 2)};
+    }
+};
+
+/// Shares of the pixels whose visibility is on the wrong side of one half, for those that face the
+/// lamp clearly and are for it.
+struct Wrong {
+    int pixels = 0, wrong = 0;
+    double share() const { return static_cast<double>(wrong) / pixels; }
+};
+template <class Counts>
+Wrong againstRays(renderer::Renderer& frame, std::size_t light, const Lamp& lamp, Counts counts) {
+    const Pixels pixels(frame);
+    const FloatImage visibility = frame.readVisibility(light);
+    const glm::dvec3 at(lamp.position);
+    Wrong result;
+    for (int y = 0; y < visibility.height; ++y)
+        for (int x = 0; x < visibility.width; ++x) {
+            if (pixels.sky(x, y)) continue;
+            const glm::dvec3 point = pixels.world(x, y);
+            if (glm::dot(pixels.normal(x, y), glm::normalize(at - point)) < 0.1) continue;
+            if (!counts(point)) continue;
+            ++result.pixels;
+            result.wrong += (visibility.at(x, y) < 0.5F) != blocked(point, at) ? 1 : 0;
+        }
+    return result;
+}
+
+/// Within two degrees of an edge of the cube around a lamp.
+bool nearSeam(glm::dvec3 point) {
+    glm::dvec3 way = glm::abs(point - glm::dvec3(kPoint.position));
+    const double largest = std::max({way.x, way.y, way.z});
+    const double second = std::max({std::min(way.x, way.y), std::min(std::max(way.x, way.y), way.z)});
+    return second > 0.93 * largest;
+}
+
+// A texel of 512 over 90 degrees is 3 mm wide at 1 m; outlines are a few pixels of each ball.
+TEST(LampFrame, PointLampsShadowsAreThoseOfRaysAcrossTheCubesEdgesToo) {
+    renderer::Renderer frame(gl(), ballScene({kPoint}), 240, 160);
+    frame.render({.technique = &renderer::findTechnique("hard"), .resolution = 512});
+    const Wrong all = againstRays(frame, 1, kPoint, [](glm::dvec3) { return true; });
+    EXPECT_GT(all.pixels, 15'000);
+    EXPECT_LT(all.share(), 0.01);
+    const Wrong seams = againstRays(frame, 1, kPoint, nearSeam);
+    EXPECT_GT(seams.pixels, 500);
+    EXPECT_LT(seams.share(), 0.015);
+}
+
+TEST(LampFrame, ASpotsShadowsAreThoseOfRays) {
+    renderer::Renderer frame(gl(), ballScene({kSpot}), 240, 160);
+    frame.render({.technique = &renderer::findTechnique("hard"), .resolution = 512});
+    const glm::dvec3 at(kSpot.position);
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(kSpot.target) - at);
+    const Wrong cone = againstRays(frame, 1, kSpot, [&](glm::dvec3 point) {
+        return glm::dot(glm::normalize(point - at), axis) > std::cos(glm::radians(35.0));
+    });
+    EXPECT_GT(cone.pixels, 5'000);
+    EXPECT_LT(cone.share(), 0.01);
+}
+
+// Soft ones too: half of the light is where the ray's hard edge is. The slack is for techniques that
+// leak or widen.
+TEST(LampFrame, EveryTechniqueShadowsWithBothKindsOfLamps) {
+    std::vector<Lamp> lamps = {kPoint, kSpot};
+    renderer::Renderer frame(gl(), ballScene(lamps), 120, 80);
+#ifdef __SANITIZE_ADDRESS__
+    constexpr std::size_t kStep = 5;  // all of them take minutes there
+#else
+    constexpr std::size_t kStep = 1;
+#endif
+    for (std::size_t row = 0; row < renderer::techniques().size(); row += kStep) {
+        const Technique& technique = renderer::techniques()[row];
+        frame.render({.technique = &technique, .resolution = 192, .radiusUv = 0.01F});
+        for (const std::size_t light : {0U, 1U, 2U})
+            for (const float v : frame.readVisibility(light).values)
+                ASSERT_TRUE(v >= 0 && v <= 1) << technique.name << ' ' << v;
+        const Wrong point = againstRays(frame, 1, kPoint, [](glm::dvec3) { return true; });
+        EXPECT_LT(point.share(), 0.05) << technique.name;
+        const glm::dvec3 at(kSpot.position);
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(kSpot.target) - at);
+        const Wrong spot = againstRays(frame, 2, kSpot, [&](glm::dvec3 p) {
+            return glm::dot(glm::normalize(p - at), axis) > std::cos(glm::radians(33.0));
+        });
+        EXPECT_LT(spot.share(), 0.05) << technique.name;
+    }
+}
+
+// The tolerances are those of the sun's map (frame_test.cpp).
+TEST(LampFrame, GpuAgreesWithCpuOnALampsMap) {
+    renderer::Renderer frame(gl(), ballScene({kSpot}), 96, 64);
+    for (const char* name : {"hard", "pcf_disc", "pcf_grid"}) {
+        const Technique& technique = renderer::findTechnique(name);
+        frame.render({.technique = &technique, .resolution = 200, .radiusUv = 0.01F});
+        const FloatImage depths = frame.readShadowMap(1);
+        const FloatImage positions = frame.readPositions();
+        const FloatImage planes = frame.readPlanes();
+        const renderer::f32::ShadowConstants& shadow = frame.shadowConstants(1);
+        FloatImage cpu(positions.width, positions.height);
+        for (int y = 0; y < cpu.height; ++y)
+            for (int x = 0; x < cpu.width; ++x) {
+                cpu.at(x, y) = 1;
+                if (positions.at(x, y, 3) == 0) continue;
+                const glm::vec3 eyeRelative(positions.at(x, y, 0), positions.at(x, y, 1),
+                                            positions.at(x, y, 2));
+                const auto receiver = renderer::f32::shadowReceiver(
+                    eyeRelative, {planes.at(x, y, 0), planes.at(x, y, 1), planes.at(x, y, 2)},
+                    frame.viewConstants(), shadow);
+                if (!serves(receiver,
+                            glm::dot(eyeRelative, glm::vec3(frame.viewConstants().forward)),
+                            shadow))
+                    continue;
+                const renderer::CpuMap<float> map{
+                    .depths = {depths.values.data(), depths.width}, .edge = 0, .texels = {}, .sums = {}};
+                cpu.at(x, y) = !receiver.facesLight
+                                   ? 0
+                                   : renderer::cpuVisibility(technique, map, receiver, shadow);
+            }
+        tests::expectImagesAgree(std::string("lamp_") + name, frame.readVisibility(1), cpu,
+                                 {.most = 1.0001, .often = 1e-4, .shareBeyondOften = 0.002});
+    }
+}
+
+// The same blur in metres: what differs is the staircases of two grids, each at most 2 a / (pi r).
+TEST(CascadeFrame, ShowsTheShadowsOfOneMap) {
+    for (const char* name : {"city", "terrain"}) {
+        renderer::Renderer frame(gl(), renderer::makeScene(name), 160, 90);
+        renderer::OrbitCamera camera = frame.scene().camera;
+        camera.distanceM *= 0.3F;
+        frame.setCamera(camera);
+        const auto softness = static_cast<float>(2 * frame.scene().softnessM);
+        const auto drawn = [&](int cascades) {
+            frame.setCascades(cascades);
+            frame.render({.technique = &renderer::findTechnique("pcf_disc"),
+                          .resolution = 1200,
+                          .radiusUv = softness / static_cast<float>(frame.window().extentM)});
+            return frame.readVisibility();
+        };
+        const FloatImage one = drawn(1);
+        const double extentOfOne = frame.window().extentM;
+        const FloatImage three = drawn(3);
+        const double ripple = 2 * (extentOfOne + frame.lightViews()[2].window.extentM) /
+                              (std::numbers::pi * 1200 * static_cast<double>(softness));
+        EXPECT_EQ(frame.lightViews().size(), 3U);
+        EXPECT_LT(frame.lightViews()[0].window.extentM, frame.lightViews()[2].window.extentM);
+        tests::expectImagesAgree(std::string("cascades_") + name, three, one,
+                                 {.most = 0.6, .often = ripple, .shareBeyondOften = 0.02});
+    }
+}
+
+TEST(LampFrame, MapsHaveSizesOfTheirOwn) {
+    renderer::Renderer frame(gl(), ballScene({kSpot}), 96, 64);
+    const Technique* disc = &renderer::findTechnique("pcf_disc");
+    const auto drawn = [&](int sun, int lamp) {
+        frame.render({.technique = disc,
+                      .maps = {{.resolution = sun, .radiusUv = 0.01F},
+                               {.resolution = lamp, .radiusUv = 0.02F}}});
+        return std::pair{frame.readVisibility(0), frame.readVisibility(1)};
+    };
+    const auto small = drawn(128, 128);
+    const auto large = drawn(300, 300);
+    const auto mixed = drawn(128, 300);
+    EXPECT_EQ(frame.shadowConstants(0).map.x, 128);
+    EXPECT_EQ(frame.shadowConstants(1).map.x, 300);
+    EXPECT_EQ(mixed.first.values, small.first.values);
+    EXPECT_EQ(mixed.second.values, large.second.values);
+    EXPECT_NE(small.second.values, large.second.values);
+    try {
+        frame.render({.technique = disc, .maps = {{.resolution = 64}}});
+        FAIL() << "a map is missing";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), HasSubstr("maps is 1 long, must be one for each of the frame's 2"));
+    }
+    EXPECT_THROW(frame.setCascades(9), std::invalid_argument);
+    EXPECT_THROW(frame.setLamps({Lamp{.nearM = -1}}), std::invalid_argument);
+    EXPECT_THROW(frame.setLamps(std::vector<Lamp>(renderer::kMostLamps + 1)), std::invalid_argument);
+    frame.setLamps({});
+    EXPECT_EQ(frame.lightViews().size(), 1U);
+}
+
+}  // namespace
