@@ -27,7 +27,8 @@ void designField(const Page& page, SetupState& setup) {
     const std::string begun = setup.existing.design ? setup.existing.design->name : kNewDesign;
     label(page, "Design");
     if (!ImGui::BeginCombo("##Design",
-                           (setup.form.design.empty() ? begun : setup.form.design).c_str())) {
+                           (setup.form.design.empty() ? begun : setup.form.design).c_str(),
+                           ImGuiComboFlags_HeightLargest)) {
         return;
     }
     if (ImGui::Selectable("as the session began", setup.form.design.empty())) {
