@@ -122,4 +122,28 @@ renderer::ByteImage differencePicture(const renderer::FloatImage& image,
     return result;
 }
 
+renderer::ByteImage differenceLegend(double full) {
+    constexpr int kWidth = 400, kBar = 20, kHeight = 44, kMargin = 4;
+    renderer::FloatImage ramp(kWidth, kBar);
+    for (int y = 0; y < kBar; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            ramp.at(x, y) = static_cast<float>(full * (2.0 * x / (kWidth - 1) - 1));
+    const renderer::ByteImage bar = differencePicture(ramp, renderer::FloatImage(kWidth, kBar), full);
+    renderer::ByteImage legend(kWidth, kHeight, 3);
+    std::fill(legend.values.begin(), legend.values.end(), std::uint8_t{255});
+    std::copy(bar.values.begin(), bar.values.end(), legend.values.begin());
+    cv::Mat canvas(kHeight, kWidth, CV_8UC3, legend.values.data());
+    for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+        char text[24];
+        std::snprintf(text, sizeof text, share == 0 ? "%.3g" : "%+.3g", share * full);
+        const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, nullptr);
+        const int middle = static_cast<int>(0.5 * (1 + share) * (kWidth - 1));
+        const int left =
+            std::clamp(middle - size.width / 2, kMargin, kWidth - kMargin - size.width);
+        cv::putText(canvas, text, {left, kHeight - 2 * kMargin}, cv::FONT_HERSHEY_SIMPLEX, 0.45,
+                    {0, 0, 0}, 1, cv::LINE_AA);
+    }
+    return legend;
+}
+
 }  // namespace demo

@@ -32,4 +32,7 @@ Part worstPart(const renderer::FloatImage& image, const renderer::FloatImage& re
 renderer::ByteImage differencePicture(const renderer::FloatImage& image,
                                       const renderer::FloatImage& reference, double full);
 
+/// The colours of differencePicture() from -full to full, with their numbers.
+renderer::ByteImage differenceLegend(double full);
+
 }  // namespace demo

@@ -69,16 +69,34 @@ std::optional<PolicyResult> calibrated(const SweepTable& table, const SizingPoli
     return best;
 }
 
+std::optional<PolicyResult> leastRipple(const SweepTable& table, const SizingPolicy& policy,
+                                        const std::string& technique) {
+    std::optional<PolicyResult> least;
+    for (int step = -kPolicySteps; step <= kPolicySteps; ++step) {
+        PolicyResult result = evaluate(table, policy, technique, step);
+        if (!result.complete()) continue;
+        if (!least || result.rippleP95 < least->rippleP95) least = std::move(result);
+    }
+    return least;
+}
+
 std::vector<PolicyComparison> comparePolicies(const SweepTable& table, double bound) {
     std::vector<PolicyComparison> all;
     for (const std::string& technique : table.techniques) {
         PolicyComparison comparison;
         comparison.technique = technique;
+        comparison.bound = bound;
         comparison.ours = calibrated(table, automaticPolicy(), technique, bound);
+        if (!comparison.ours)
+            if (const auto least = leastRipple(table, automaticPolicy(), technique)) {
+                comparison.bound = least->rippleP95;
+                comparison.ours = calibrated(table, automaticPolicy(), technique, comparison.bound);
+            }
         for (const SizingPolicy& policy : sizingPolicies()) {
             PolicyComparison::Entry entry;
             entry.policy = &policy;
-            entry.result = calibrated(table, policy, technique, bound);
+            entry.result = calibrated(table, policy, technique, comparison.bound);
+            if (!entry.result) entry.nearest = leastRipple(table, policy, technique);
             if (entry.result && comparison.ours)
                 entry.timesOurs = entry.result->geometricMeanMs / comparison.ours->geometricMeanMs;
             comparison.entries.push_back(std::move(entry));

@@ -43,12 +43,22 @@ PolicyResult evaluate(const SweepTable& table, const SizingPolicy& policy,
 std::optional<PolicyResult> calibrated(const SweepTable& table, const SizingPolicy& policy,
                                        const std::string& technique, double bound = kRippleBound);
 
+/// The parameter that leaves the least ripple; absent where no parameter has all its sizes
+/// measured. A policy that stops at pixels reaches no finer maps with any c, and its texels still
+/// ripple by parts of a pixel.
+std::optional<PolicyResult> leastRipple(const SweepTable& table, const SizingPolicy& policy,
+                                        const std::string& technique);
+
 /// One technique's row of the comparison.
 struct PolicyComparison {
     std::string technique;
+    /// kRippleBound, or what the automatic size leaves at least where it does not reach that with
+    /// any c: quality is equal in any case, and the report says which.
+    double bound = 0;
     struct Entry {
         const SizingPolicy* policy = nullptr;
         std::optional<PolicyResult> result;  ///< absent: it cannot keep to the bound
+        std::optional<PolicyResult> nearest;  ///< then: with the least ripple, where measured
         /// Geometric mean of its time over ours; below 1 we lose, NaN without both.
         double timesOurs = std::numeric_limits<double>::quiet_NaN();
     };

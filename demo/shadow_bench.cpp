@@ -3,6 +3,9 @@
 
 #include "demo/benchmark.h"
 #include "demo/benchmark_report.h"
+#include "demo/direct_run.h"
+#include "demo/growth_run.h"
+#include "demo/model_error.h"
 #include "demo/policy_comparison.h"
 #include "demo/speed_error_front.h"
 #include "demo/sweep.h"
@@ -20,11 +23,13 @@ struct Options {
     std::filesystem::path out;
     demo::SlopeOptions slope;
     std::optional<std::filesystem::path> fit;
-    int width = 640, height = 360, rounds = 5;
+    int width = 640, height = 360;
+    std::optional<int> rounds;
     bool quick = false;
-    bool sweep = false, reportAlone = false;
+    bool sweep = false, reportAlone = false, model = false, direct = false, growth = false;
     std::vector<int> sizes = {128, 184, 256, 368, 512, 728, 1024, 1456, 2048, 2904, 4096};
-    int frames = 3;
+    std::vector<double> softness = {1};
+    int frames = 2;
     double mostFrameMs = 4000;
     std::string shard = "1/1";
     std::optional<std::filesystem::path> stability;
@@ -42,16 +47,19 @@ const std::vector<std::string> kSweptTechniques = {"pcf_disc", "pcss", "vsm",
 demo::SweepSettings sweepSettings(const Options& options) {
     demo::SweepSettings settings;
     settings.scenes = options.scenes;
+    // Errors and policies are those of the sun's one map.
     if (settings.scenes.empty())
         for (const renderer::SceneEntry& entry : renderer::builtInScenes())
-            settings.scenes.emplace_back(entry.name);
-    for (const std::string& name : settings.scenes) renderer::findScene(name);
-    for (const std::string& name :
-         options.techniques.empty() ? kSweptTechniques : options.techniques)
-        settings.techniques.push_back(&renderer::findTechnique(name));
+            if (renderer::makeScene(entry.name).lamps.empty())
+                settings.scenes.emplace_back(entry.name);
+    for (const std::string& name : settings.scenes)
+        if (!std::filesystem::exists(name)) renderer::findScene(name);
+    settings.softness = options.softness;
+    settings.techniques = demo::parseSweptTechniques(
+        options.techniques.empty() ? kSweptTechniques : options.techniques);
     settings.sizes = options.sizes;
     settings.frames = options.frames;
-    settings.rounds = options.rounds;
+    if (options.rounds) settings.rounds = *options.rounds;
     settings.widthPx = options.width;
     settings.heightPx = options.height;
     settings.mostFrameMs = options.mostFrameMs;
@@ -59,12 +67,12 @@ demo::SweepSettings sweepSettings(const Options& options) {
     settings.slope = demo::loadSlope(options.slope);
     settings.folder = options.out;
     if (options.quick) {
-        settings.sizes = {128, 256, 512, 1024, 2048};
+        settings.sizes = {128, 256, 512, 1024};
         settings.widthPx /= 2;
         settings.heightPx /= 2;
         settings.frames = 1;
         settings.rounds = 1;
-        settings.mostFrameMs = std::min(settings.mostFrameMs, 400.0);
+        settings.mostFrameMs = std::min(settings.mostFrameMs, 250.0);
     }
     return settings;
 }
@@ -78,25 +86,76 @@ void printPolicies(const std::vector<demo::PolicyComparison>& comparisons) {
                 std::printf(" %8.2f ms  %6.3f of ours  ripple %.3f  %s %.4g\n",
                             entry.result->geometricMeanMs, entry.timesOurs, entry.result->rippleP95,
                             std::string(entry.policy->parameter).c_str(), entry.result->parameter);
+            else if (entry.nearest)
+                std::printf(" cannot keep to %.3f: ripple %.3f at least\n", comparison.bound,
+                            entry.nearest->rippleP95);
             else
-                std::printf(" keeps to the bound with no measured sizes\n");
+                std::printf(" has no parameter of which all sizes were measured\n");
         }
+}
+
+records::RunContext contextOf(const Options& options, const renderer::GlInfo& info, int widthPx,
+                              int heightPx) {
+    records::RunContext run = records::currentRunContext("shadow_bench", options.command);
+    run.glRenderer = info.renderer;
+    run.glVersion = info.version;
+    run.softwareRasteriser = info.softwareRasteriser;
+    run.viewportWidthPx = widthPx;
+    run.viewportHeightPx = heightPx;
+    return run;
+}
+
+// What growth is measured with where no techniques are named: a full kernel, taps, a blurred map.
+const std::vector<std::string> kGrowthTechniques = {"pcf_disc", "pcf_taps", "vsm"};
+
+void measureGrowth(const Options& options) {
+    demo::GrowthSettings settings;
+    if (options.scenes.size() > 1)
+        throw std::invalid_argument("--growth takes one scene, not " +
+                                    std::to_string(options.scenes.size()));
+    if (!options.scenes.empty()) settings.scene = options.scenes.front();
+    for (const std::string& name :
+         options.techniques.empty() ? kGrowthTechniques : options.techniques)
+        settings.techniques.push_back(&renderer::findTechnique(name));
+    if (options.rounds) settings.rounds = *options.rounds;
+    settings.widthPx = options.width;
+    settings.heightPx = options.height;
+    settings.folder = options.out;
+    if (options.quick) {
+        settings.rounds = 1;
+        settings.reduction = 4;
+    }
+    settings.validate();
+    records::createFolders(options.out);
+    const renderer::HeadlessContext context;
+    demo::measureGrowth(context.info(), settings,
+                        contextOf(options, context.info(), settings.widthPx, settings.heightPx));
+    const std::string table = demo::growthTable(demo::readGrowth(options.out));
+    records::writeWholeFile(options.out / "growth_fits.tsv", table);
+    std::printf("%s", table.c_str());
 }
 
 void sweep(const Options& options) {
     const demo::SweepSettings settings = sweepSettings(options);
     settings.validate();
-    if (!options.reportAlone) {
+    const bool whole = settings.shard.count == 1;
+    if (!options.reportAlone || options.direct || options.model) {
         records::createFolders(options.out);
         const renderer::HeadlessContext context;
-        records::RunContext run = records::currentRunContext("shadow_bench", options.command);
-        run.glRenderer = context.info().renderer;
-        run.glVersion = context.info().version;
-        run.softwareRasteriser = context.info().softwareRasteriser;
-        run.viewportWidthPx = settings.widthPx;
-        run.viewportHeightPx = settings.heightPx;
-        demo::runSweep(context.info(), settings, run);
-        if (settings.shard.count > 1) return;  // the last to come reports: --report
+        const records::RunContext run =
+            contextOf(options, context.info(), settings.widthPx, settings.heightPx);
+        if (!options.reportAlone) demo::runSweep(context.info(), settings, run);
+        if (!whole) return;  // the last to come reports: --report
+        if (options.direct || !options.reportAlone)
+            demo::runDirect(context.info(), settings, run);
+        if (options.model)
+            demo::measureModelErrors(context.info(),
+                                     {.scenes = settings.scenes,
+                                      .techniques = settings.techniques,
+                                      .widthPx = settings.widthPx / 2,
+                                      .heightPx = settings.heightPx / 2,
+                                      .folder = options.out},
+                                     run);
     }
     const demo::SweepTable table = demo::readSweep(options.out);
     const auto report = demo::writeSweepReport(options.out, table, options.stability);
@@ -141,7 +200,7 @@ void measure(const Options& options) {
                                      .resolutions = {},
                                      .widthPx = options.width,
                                      .heightPx = options.height,
-                                     .rounds = options.rounds,
+                                     .rounds = options.rounds.value_or(5),
                                      .slope = demo::loadSlope(options.slope)};
     for (const std::string& text : options.resolutions)
         settings.resolutions.push_back(demo::parseResolution(text, "--resolutions"));
@@ -156,12 +215,8 @@ void measure(const Options& options) {
     const renderer::HeadlessContext context;
     const demo::BenchmarkResult result = demo::runBenchmark(context.info(), settings);
 
-    records::RunContext run = records::currentRunContext("shadow_bench", options.command);
-    run.glRenderer = context.info().renderer;
-    run.glVersion = context.info().version;
-    run.softwareRasteriser = context.info().softwareRasteriser;
-    run.viewportWidthPx = settings.widthPx;
-    run.viewportHeightPx = settings.heightPx;
+    const records::RunContext run =
+        contextOf(options, context.info(), settings.widthPx, settings.heightPx);
     const std::filesystem::path report =
         demo::writeReport(options.out, result, run, settings.slope, options.fit);
     for (const demo::Headline& headline : demo::headlines(result))
@@ -179,7 +234,7 @@ int main(int argc, char** argv) {
     Options options;
     options.command.assign(argv, argv + argc);
     app.add_option("--scenes", options.scenes, "scenes or model files; default: all built-in ones")->delimiter(',');
-    app.add_option("--techniques", options.techniques, "techniques; default: all with a kernel")
+    app.add_option("--techniques", options.techniques, "techniques; default: all with a kernel; a sweep also takes NAME:PARAMETER=NUMBER")
         ->delimiter(',');
     app.add_option("--resolutions", options.resolutions,
                    "auto and map edges in texels; the largest is the reference")
@@ -191,7 +246,7 @@ int main(int argc, char** argv) {
                    "folder of fit_slope whose slope and figures go into the report");
     app.add_option("--width", options.width, "viewport width in px")->capture_default_str();
     app.add_option("--height", options.height, "viewport height in px")->capture_default_str();
-    app.add_option("--rounds", options.rounds, "timed visits of each cell")->capture_default_str();
+    app.add_option("--rounds", options.rounds, "timed visits of each cell; default: 5, in a sweep 3");
     app.add_flag("--quick", options.quick, "half the viewport's edges, three rounds");
     app.add_flag(
         "--sweep", options.sweep,
@@ -199,7 +254,18 @@ int main(int argc, char** argv) {
         "from, or go on with the one in --out");
     app.add_flag("--report", options.reportAlone,
                  "with --sweep: measure nothing, write the report of what lies in --out");
+    app.add_flag("--direct", options.direct,
+                 "with --sweep --report: draw the calibrated policies' frames directly, as a sweep "
+                 "without shards does at its end");
+    app.add_flag("--growth", options.growth,
+                 "measure how cost grows with N, taps, triangles, lights and pixels, into --out");
+    app.add_flag("--model", options.model,
+                 "with --sweep: also the errors against an area light, by ray casting");
     app.add_option("--sizes", options.sizes, "sizes of the sweep, levels of the controller")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_option("--softness", options.softness,
+                   "of the sweep, as factors of each scene's own softness")
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--frames", options.frames, "frames of each scene's path in the sweep")
@@ -227,6 +293,7 @@ int main(int argc, char** argv) {
     return program::run(app, argc, argv, [&] {
         if (!options.compare.empty()) return compare(options);
         if (options.recommendFrom) return recommend(options);
+        if (options.growth) return measureGrowth(options);
         options.sweep ? sweep(options) : measure(options);
     });
 }

@@ -6,8 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <memory>
-#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -17,7 +15,9 @@
 #include "demo/frame_facts.h"
 #include "demo/map_places.h"
 #include "demo/shadow_run.h"
+#include "demo/ripple_counts.h"
 #include "demo/sizing_policy.h"
+#include "demo/swept_view.h"
 #include "demo/thin_detail.h"
 #include "demo/tsv_journal.h"
 #include "program/progress.h"
@@ -36,28 +36,14 @@ constexpr double kLeastGrowth = 1, kMostGrowth = 2.9;
 constexpr float kLightStepDeg = 0.05F;
 constexpr float kOrbitStepDeg = 1;
 
-std::string countsText(const std::vector<float>& ripples) {
-    std::vector<int> counts(kRippleBins);
-    for (const float ripple : ripples) {
-        // A NaN is as bad as can be.
-        const float level = 255 * ripple;
-        const int bin =
-            level >= 0 && level < kRippleBins ? static_cast<int>(level) : kRippleBins - 1;
-        ++counts[static_cast<std::size_t>(bin)];
-    }
-    while (counts.size() > 1 && counts.back() == 0) counts.pop_back();
-    std::string text;
-    for (const int count : counts) text += (text.empty() ? "" : ",") + std::to_string(count);
-    return text;
-}
-
 struct Unit {
-    std::string scene;
+    std::string source;
+    double softness = 1;  ///< times the scene's own
     int frame = 0;
-    const renderer::Technique* technique = nullptr;
+    const SweptTechnique* technique = nullptr;
 
     std::vector<std::string> key() const {
-        return {scene, std::to_string(frame), std::string(technique->name)};
+        return {sweptScene(source, softness), std::to_string(frame), technique->name};
     }
 };
 
@@ -92,7 +78,8 @@ class Sweep {
           settings_(settings),
           times_(fileOf("sweep_times"), kSweepTimeColumns, contextOf(context)),
           errors_(fileOf("sweep_errors"), kSweepErrorColumns, contextOf(context)),
-          policies_(fileOf("sweep_policies"), kSweepPolicyColumns, contextOf(context)) {
+          policies_(fileOf("sweep_policies"), kSweepPolicyColumns, contextOf(context)),
+          view_(info, settings.widthPx, settings.heightPx, settings.frames) {
         for (const TsvJournal* journal : {&times_, &errors_, &policies_})
             if (journal->table().context().find(settings.plan()) == std::string::npos)
                 throw std::runtime_error(settings.folder.string() +
@@ -131,10 +118,11 @@ class Sweep {
         std::vector<Unit> mine;
         int number = 0;
         for (const std::string& scene : settings_.scenes)
-            for (int frame = 0; frame < settings_.frames; ++frame)
-                for (const renderer::Technique* technique : settings_.techniques)
-                    if (number++ % settings_.shard.count == settings_.shard.index - 1)
-                        mine.push_back({scene, frame, technique});
+            for (const double softness : settings_.softness)
+                for (int frame = 0; frame < settings_.frames; ++frame)
+                    for (const SweptTechnique& technique : settings_.techniques)
+                        if (number++ % settings_.shard.count == settings_.shard.index - 1)
+                            mine.push_back({scene, softness, frame, &technique});
         return mine;
     }
 
@@ -149,24 +137,14 @@ class Sweep {
     }
 
     void show(const Unit& unit) {
-        if (!frame_ || frame_->scene().name != unit.scene) {
-            frame_.reset();
-            frame_ = std::make_unique<renderer::Renderer>(info_, renderer::makeScene(unit.scene),
-                                                          settings_.widthPx, settings_.heightPx);
-            start_ = frame_->scene();
-            // A window narrowed to the view holds its extent from the frames before, and shards and
-            // resumed runs come from others.
-            frame_->setWindowFit(renderer::WindowFit::casters);
-        }
-        const PathView view = pathView(start_, unit.frame, settings_.frames);
-        frame_->setCamera(view.camera);
-        frame_->setSun(view.sun);
-        softness_ = chooseSoftness(*frame_, std::nullopt, std::nullopt);
+        view_.show(unit.source, unit.softness, unit.frame);
+        frame_ = &view_.renderer();
+        softness_ = view_.softness();
     }
 
     ShadowRun::Settings runSettings(const Unit& unit, int resolution) const {
-        return {.technique = unit.technique,
-                .parameters = unit.technique->standardParameters(),
+        return {.technique = unit.technique->technique,
+                .parameters = unit.technique->parameters,
                 .radiusUv = softness_.radiusUv,
                 .resolution = resolution,
                 .slope = settings_.slope.slope};
@@ -278,7 +256,8 @@ class Sweep {
         if (largest == sizes.rend()) return;
         const Measured& reference = *largest;
         if (unit.frame == 0) addMoved(unit, sizes);
-        frame_->render({.technique = unit.technique,
+        frame_->render({.technique = unit.technique->technique,
+                        .parameters = unit.technique->parameters,
                         .resolution = reference.resolution,
                         .radiusUv = static_cast<float>(softness_.radiusUv)});
         const renderer::FloatImage places = mapPlaces(*frame_);
@@ -338,18 +317,19 @@ class Sweep {
                                     flicker(measured.orbited, reference.orbited),
                                     size})
             row.push_back(tsvNumber(number));
-        row.push_back(countsText(ripples));
+        row.push_back(rippleCountsText(ripples));
         errors_.add(row);
     }
 
     /// The same sizes after a small step of the light, and of the camera.
     void addMoved(const Unit& unit, std::vector<Measured>& sizes) {
-        const PathView view = pathView(start_, unit.frame, settings_.frames);
+        const PathView view = view_.path();
         const auto draw = [&](renderer::FloatImage Measured::*image) {
-            const double radiusUv = chooseSoftness(*frame_, std::nullopt, std::nullopt).radiusUv;
+            const double radiusUv = view_.softness().radiusUv;
             for (Measured& measured : sizes) {
                 if (measured.status != "ok") continue;
-                frame_->render({.technique = unit.technique,
+                frame_->render({.technique = unit.technique->technique,
+                                .parameters = unit.technique->parameters,
                                 .resolution = measured.resolution,
                                 .radiusUv = static_cast<float>(radiusUv),
                                 .lit = false});
@@ -388,8 +368,8 @@ class Sweep {
     const renderer::GlInfo& info_;
     const SweepSettings& settings_;
     TsvJournal times_, errors_, policies_;
-    std::unique_ptr<renderer::Renderer> frame_;
-    renderer::Scene start_;
+    SweptView view_;
+    renderer::Renderer* frame_ = nullptr;  // of view_
     Softness softness_;
 };
 
@@ -417,6 +397,12 @@ void SweepSettings::validate() const {
     };
     atLeastOne("frames", frames);
     atLeastOne("rounds", rounds);
+    for (const double factor : softness)
+        if (!(factor > 0 && factor <= 100))
+            throw std::invalid_argument("softness has " + tsvNumber(factor) +
+                                        ", must be above 0 and at most 100");
+    if (scenes.empty() || techniques.empty() || softness.empty())
+        throw std::invalid_argument("scenes, techniques and softness must not be empty");
     if (sizes.size() < 2 || !std::is_sorted(sizes.begin(), sizes.end()))
         throw std::invalid_argument("sizes has " + std::to_string(sizes.size()) +
                                     " entries, must be at least two, ascending");
@@ -440,13 +426,6 @@ std::string SweepSettings::plan() const {
 
 double policyParameter(double standard, int step) {
     return standard * std::exp2(step / 4.0);
-}
-
-PathView pathView(const renderer::Scene& scene, int frame, int frames) {
-    PathView view{scene.camera, scene.sun};
-    const double place = static_cast<double>(frame) / frames;
-    view.camera.yawDeg += 360 * static_cast<float>(place);
-    return view;
 }
 
 void runSweep(const renderer::GlInfo& info, const SweepSettings& settings,

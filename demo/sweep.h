@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The measured table behind the report: every frame of every scene's path x technique x map size,
-// what it costs and how wrong it is, and what each sizing policy would have taken there. Policies
-// are compared from this table (policy_comparison.h), so that all of them see the same
-// measurements.
+// The measured table behind the report: every frame of every scene's path x softness x technique x
+// map size, what it costs and how wrong it is, and what each sizing policy would have taken there.
+// Policies are compared from this table (policy_comparison.h), so that all of them see the same
+// measurements, and confirmed by drawing what they take (direct_run.h).
 //
 // Three journals in the folder, which a killed sweep goes on with: sweep_times.tsv (one line per
 // visit of a cell), sweep_errors.tsv (one per cell), sweep_policies.tsv (one per frame and policy).
@@ -15,10 +15,9 @@
 #include <vector>
 
 #include "demo/loaded_slope.h"
+#include "demo/swept_technique.h"
 #include "records/run_context.h"
 #include "renderer/gl_context.h"
-#include "renderer/scene.h"
-#include "renderer/technique.h"
 
 namespace demo {
 
@@ -29,10 +28,11 @@ struct Shard {
 Shard parseShard(const std::string& text, const std::string& option);
 
 struct SweepSettings {
-    std::vector<std::string> scenes;  ///< names
-    std::vector<const renderer::Technique*> techniques;
+    std::vector<std::string> scenes;      ///< as openScene() takes them
+    std::vector<double> softness = {1};   ///< times each scene's own; each is a scene of its own
+    std::vector<SweptTechnique> techniques;
     std::vector<int> sizes;  ///< levels, ascending; the largest that can be had is the reference
-    int frames = 3;          ///< of each scene's path, >= 1
+    int frames = 2;          ///< of each scene's path, >= 1
     int rounds = 3;          ///< timed visits of each cell, >= 1
     int widthPx = 640, heightPx = 360;
     double mostFrameMs = 4000;  ///< cells that are predicted to be slower are skipped, and named
@@ -80,21 +80,10 @@ inline const std::vector<std::string> kSweepErrorColumns = {"scene",
 inline const std::vector<std::string> kSweepPolicyColumns = {"scene", "frame", "technique",
                                                              "policy", "sizes"};
 
-/// Ripples are kept as counts, one for each 8-bit level, so that those of many frames can be taken
-/// together; the last also counts what is larger.
-inline constexpr int kRippleBins = 256;
-
 /// A policy's parameter is tried at `standard` x 2^(step / 4), step = -kPolicySteps ..
 /// kPolicySteps.
 inline constexpr int kPolicySteps = 20;
 double policyParameter(double standard, int step);
-
-/// The scene as its path has it at frame i of n: camera paths first, then the light's.
-struct PathView {
-    renderer::OrbitCamera camera;
-    renderer::Sun sun;
-};
-PathView pathView(const renderer::Scene& scene, int frame, int frames);
 
 /// Measures what the journals do not hold yet. `context` goes into their heads. Throws
 /// std::runtime_error where the folder holds a sweep of another plan.

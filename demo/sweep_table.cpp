@@ -2,9 +2,7 @@
 #include "demo/sweep_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -22,20 +20,6 @@ std::string keyOf(const std::string& scene, int frame, const std::string& techni
 template <class Value>
 void addIfNew(std::vector<Value>& values, const Value& value) {
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-}
-
-std::vector<int> wholeNumbers(const std::string& text) {
-    std::vector<int> numbers;
-    for (const char *at = text.data(), *end = at + text.size(); at < end; ++at) {
-        int number = 0;
-        const auto [rest, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || (rest != end && *rest != ','))
-            throw std::runtime_error("\"" + text.substr(0, 40) +
-                                     "\" must be whole numbers with commas between");
-        numbers.push_back(number);
-        at = rest;
-    }
-    return numbers;
 }
 
 /// All journals of a name, shards too.
@@ -86,23 +70,6 @@ void takeErrors(SweepCell& cell, const TsvRow& row) {
 }
 
 }  // namespace
-
-double rippleP95(const RippleCounts& counts) {
-    const auto total = std::accumulate(counts.begin(), counts.end(), 0LL);
-    if (total == 0) return 0;
-    long long below = 0;
-    for (std::size_t bin = 0; bin < counts.size(); ++bin) {
-        below += counts[bin];
-        if (static_cast<double>(below) >= 0.95 * static_cast<double>(total))
-            return (static_cast<double>(bin) + 0.5) / 255;
-    }
-    return 1;
-}
-
-void addCounts(RippleCounts& sum, const RippleCounts& counts) {
-    if (sum.size() < counts.size()) sum.resize(counts.size());
-    for (std::size_t bin = 0; bin < counts.size(); ++bin) sum[bin] += counts[bin];
-}
 
 bool SweepCell::noisy() const {
     return frameMs.count < 3 || frameMs.p75 - frameMs.p25 > kMostSpread * frameMs.median;

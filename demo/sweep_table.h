@@ -8,15 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "demo/ripple_counts.h"
 #include "demo/spread.h"
 #include "demo/sweep.h"
 
 namespace demo {
-
-using RippleCounts = std::vector<int>;  ///< one for each 8-bit level, see kRippleBins
-/// 95th percentile, in the middle of its level; 0 for no counts.
-double rippleP95(const RippleCounts& counts);
-void addCounts(RippleCounts& sum, const RippleCounts& counts);
 
 struct SweepCell {
     std::string scene;

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A sweep as a Slurm array job; docs/benchmark.md. Task 0 writes the report of all the others.
+# A sweep as a Slurm array job; docs/benchmark.md. Task 0 comes after the others: it draws the
+# calibrated policies' frames directly, then writes the report of all.
 #SBATCH --job-name=shadow-sweep
 #SBATCH --array=1-16
 #SBATCH --cpus-per-task=2
@@ -14,6 +15,6 @@ parts=${PARTS:-16}
 options=(--sweep --out "$out" ${SWEEP_OPTIONS:-})
 
 if [ "${SLURM_ARRAY_TASK_ID:?}" -eq 0 ]; then
-    exec "$bench" "${options[@]}" --report
+    exec "$bench" "${options[@]}" --report --direct
 fi
 exec "$bench" "${options[@]}" --shard "$SLURM_ARRAY_TASK_ID/$parts"

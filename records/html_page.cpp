@@ -176,6 +176,10 @@ void HtmlPage::note(const std::string& text) {
     body_ += "<p class=\"note\" role=\"note\">" + htmlEscaped(text) + "</p>\n";
 }
 
+void HtmlPage::failure(const std::string& text) {
+    body_ += "<p class=\"failure\" role=\"alert\">" + htmlEscaped(text) + "</p>\n";
+}
+
 void HtmlPage::table(const std::vector<std::string>& head,
                      const std::vector<std::vector<std::string>>& rows,
                      const std::string& caption) {

@@ -38,6 +38,7 @@ class HtmlPage {
     void headline(const std::string& number,
                   const std::string& meaning);  ///< the one number, large
     void note(const std::string& text);         ///< set off: a warning, a limit, what was left out
+    void failure(const std::string& text);      ///< the same in red: numbers not to be trusted
     /// A column whose cells are all numbers (or n/a, intervals, empty) is right-aligned. Scrolls by
     /// itself on narrow screens. Throws std::invalid_argument for a row whose length is not that of
     /// `head`.

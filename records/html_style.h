@@ -48,6 +48,9 @@ p { margin: 0 0 1rem; max-width: 46rem; overflow-wrap: break-word; }
   padding: .65rem 1rem; background: var(--note); border-left: 4px solid var(--note-line);
   border-radius: 0 6px 6px 0;
 }
+.failure {
+  padding: .8rem 1rem; background: #b3261e; color: #fff; font-weight: 650; border-radius: 6px;
+}
 figure { margin: 1.5rem 0 2rem; }
 figcaption { margin-top: .5rem; color: var(--quiet); font-size: .9rem; line-height: 1.5; max-width: 46rem; }
 figure img { display: block; max-width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }

@@ -15,6 +15,7 @@
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::vector<int> kSizes = {128, 256, 512, 1024, 2048};
 
@@ -105,10 +106,24 @@ TEST_F(PolicyComparisonOf, ACheatThatTakesTheTruthsSizeIsCaughtByItsCost) {
     for (const auto& point : all) EXPECT_NE(point.resolution, 2048) << "the reference is no choice";
 }
 
-TEST_F(PolicyComparisonOf, ABoundThatNobodyKeepsSaysSo) {
-    const auto all = demo::comparePolicies(sweep({}), 0.001);
-    EXPECT_FALSE(all[0].ours.has_value());
-    for (const auto& entry : all[0].entries) EXPECT_FALSE(entry.result.has_value());
+TEST_F(PolicyComparisonOf, ABoundOutOfReachGivesWayToTheLeastRippleOfOursAndSaysSo) {
+    const demo::SweepTable table = sweep({});
+    const auto all = demo::comparePolicies(table, 0.001);
+    // Twice the need, the finest that ours takes: half the ripple.
+    EXPECT_NEAR(all[0].bound, 13.5 / 255, 1e-9);
+    ASSERT_TRUE(all[0].ours.has_value());
+    EXPECT_EQ(all[0].ours->largest, 2048);
+    for (const auto& entry : all[0].entries) {
+        EXPECT_EQ(entry.result.has_value(), entry.policy->ours) << entry.policy->name;
+        if (entry.policy->ours) continue;
+        // The others take 1024 at most, which leaves the large scene as it was.
+        ASSERT_TRUE(entry.nearest.has_value());
+        EXPECT_NEAR(entry.nearest->rippleP95, 26.5 / 255, 1e-9);
+        EXPECT_TRUE(std::isnan(entry.timesOurs));
+    }
+    const std::string page =
+        records::readWholeFile(demo::writeSweepReport(last_, table, std::nullopt));
+    EXPECT_THAT(page, Not(HasSubstr("cannot keep to")));  // to .13, which they all do
 }
 
 TEST_F(PolicyComparisonOf, WhatWasNotMeasuredIsNamed) {
@@ -156,12 +171,17 @@ TEST_F(PolicyComparisonOf, ComparedSweepsDifferBeyondNoiseAlone) {
 
 TEST_F(PolicyComparisonOf, ABrokenTechniqueIsTheFirstThingInTheReport) {
     EXPECT_TRUE(demo::brokenTechniques(sweep({})).empty());
+    EXPECT_THAT(demo::brokenTechniques(sweep({.worse = 0.2})),
+                testing::ElementsAre(HasSubstr("does not converge")));
     const demo::SweepTable broken = sweep({.broken = true});
     ASSERT_EQ(demo::brokenTechniques(broken).size(), 1U);
     const auto file = demo::writeSweepReport(last_, broken, std::nullopt);
     const std::string page = records::readWholeFile(file);
-    EXPECT_THAT(page, HasSubstr("BROKEN"));
-    EXPECT_LT(page.find("BROKEN"), page.find("the speed"));
+    EXPECT_THAT(page, HasSubstr("<p class=\"failure\""));
+    EXPECT_LT(page.find("<p class=\"failure\""), page.find("the speed"));
+    const std::string sound =
+        records::readWholeFile(demo::writeSweepReport(last_, sweep({}), std::nullopt));
+    EXPECT_EQ(sound.find("<p class=\"failure\""), std::string::npos);
     EXPECT_THAT(page, HasSubstr("<svg"));
     EXPECT_TRUE(std::filesystem::exists(last_ / "policies.tsv"));
     EXPECT_TRUE(std::filesystem::exists(last_ / "front.tsv"));

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 
+#include "demo/direct_run.h"
 #include "demo/sizing_policy.h"
 #include "demo/sweep_table.h"
+#include "demo/swept_view.h"
 #include "demo/tsv_journal.h"
 #include "records/whole_file.h"
 #include "tests/run_command.h"
@@ -56,6 +58,32 @@ TEST(Sweep, MeasuresEveryCellAndReports) {
     }
     EXPECT_EQ(table.policySizes.size(), 2 * demo::sizingPolicies().size());
 
+    // Each calibrated policy drew its frames itself, and so did the automatic size.
+    const std::vector<demo::DirectRow> direct = demo::readDirect(folder.path());
+    int automatic = 0;
+    for (const demo::DirectRow& row : direct) {
+        EXPECT_GT(row.frameMs, 0);
+        EXPECT_EQ(row.reference, 128);
+        automatic += row.policy == demo::kControllerRun;
+        // What the table said of this size is what it looks like.
+        if (const auto* cell = table.find(row.scene, row.frame, row.technique, row.resolution);
+            cell != nullptr && row.policy != demo::kControllerRun) {
+            EXPECT_NEAR(row.rmse, cell->rmse, 1e-5) << row.policy;
+            EXPECT_NEAR(row.rippleP95, cell->rippleP95, 1e-5) << row.policy;
+        }
+    }
+    EXPECT_EQ(automatic, 2);
+    for (const demo::PolicyComparison& comparison : demo::comparePolicies(table))
+        for (const auto& entry : comparison.entries)
+            EXPECT_EQ(entry.result && demo::directResult(direct, table, *entry.result),
+                      entry.result.has_value())
+                << entry.policy->name;
+    for (const char* technique : {"pcf_disc", "vsm"})
+        EXPECT_TRUE(std::filesystem::exists(
+            demo::errorPicture(folder.path(), "planar_occluder", technique)));
+    EXPECT_THAT(records::readWholeFile(folder.path() / "sweep.html"),
+                HasSubstr("measured directly"));
+
     // Nothing is left to measure.
     const std::string times = records::readWholeFile(folder.path() / "sweep_times.tsv");
     ASSERT_EQ(tests::runProgram("shadow_bench", tinySweep(folder.path())).exitCode, 0);
@@ -96,6 +124,28 @@ TEST(Sweep, ShardsTogetherAreTheWhole) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "sweep.html"));
 }
 
+TEST(Sweep, GoesAlongTheScenesOwnPathsAtEverySoftness) {
+    const tests::TemporaryFolder folder;
+    auto arguments = tinySweep(folder.path(), {"--softness", "1,2"});
+    for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
+        if (arguments[i] == "--frames") arguments[i + 1] = "2";
+    const auto result = tests::runProgram("shadow_bench", arguments);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const demo::SweepTable table = demo::readSweep(folder.path());
+    ASSERT_EQ(table.scenes,
+              (std::vector<std::string>{"planar_occluder", "planar_occluder softness 2"}));
+    ASSERT_EQ(table.frames, 2);
+    for (const int frame : {0, 1})
+        EXPECT_NEAR(table.find(table.scenes[1], frame, "vsm", 64)->radiusUv,
+                    2 * table.find(table.scenes[0], frame, "vsm", 64)->radiusUv, 1e-6);
+    // Half of the way: the light has moved too.
+    const renderer::Scene scene = renderer::makeScene("planar_occluder");
+    const demo::PathView half = demo::pathView(scene, 1, 2);
+    EXPECT_EQ(half.sun.azimuthDeg, renderer::along(scene.sunPath, scene.sun, 0.5).azimuthDeg);
+    EXPECT_EQ(half.camera.yawDeg, renderer::along(scene.cameraPath, scene.camera, 0.5).yawDeg);
+    EXPECT_NE(half.sun.azimuthDeg, scene.sun.azimuthDeg);
+}
+
 TEST(Sweep, RefusesBadInputInOneSentence) {
     const tests::TemporaryFolder folder;
     const std::string out = folder.path().string();
@@ -106,6 +156,13 @@ TEST(Sweep, RefusesBadInputInOneSentence) {
              {{"--sweep", "--out", out, "--sizes", "100,200"}, "sizes has 100"},
              {{"--sweep", "--out", out, "--sizes", "256,128"}, "ascending"},
              {{"--sweep", "--out", out, "--frames", "0"}, "frames is 0"},
+             {{"--sweep", "--out", out, "--techniques", "vsm:taps=3"}, "taps"},
+             {{"--sweep", "--out", out, "--techniques", "pcf_taps:taps"}, "PARAMETER=NUMBER"},
+             {{"--sweep", "--out", out, "--techniques", "pcf_taps:taps=999"}, "taps"},
+             {{"--sweep", "--out", out, "--softness", "0"}, "softness has 0"},
+             {{"--sweep", "--out", out, "--scenes", "nope"}, "\"nope\" is not known"},
+             {{"--growth", "--out", out, "--scenes", "yard,city"}, "--growth takes one scene"},
+             {{"--growth", "--out", out, "--rounds", "0"}, "rounds is 0"},
              {{"--sweep", "--out", out, "--most-ms", "-1"}, "must be greater than 0"},
              {{"--sweep", "--report", "--out", out + "/none"}, "there is no sweep"},
              {{"--compare", out, out}, "there is no sweep"},

@@ -50,6 +50,7 @@ TEST(HtmlPage, EscapesEveryTextItIsGiven) {
     page.paragraph(evil);
     page.headline(evil, evil);
     page.note(evil);
+    page.failure(evil);
     page.table({evil}, {{evil}}, evil);
     page.svg("<svg></svg>", evil);
     page.image(folder / "a.png", evil, evil);
