@@ -101,12 +101,12 @@ std::vector<PaperFigure> variance() {
          .widthPx = 480,
          .heightPx = 270,
          .show = PaperShow::raisedContrast,
-         .truth = PaperPanel{"", "pcf_disc", {}, kTruthResolution, 0, 0.06},
+         .truth = PaperPanel{"", "pcf_disc", {}, 1024, 0, 0.06},
          .numbers = {umbraLight},
          .panels = {{"VSM", "vsm", {}, 1024, 0, 0.06}, {"PCF", "pcf_disc", {}, 1024, 0, 0.06}},
          .setting = "Spheres whose shadows overlap, visibility times 4: white is a quarter of the "
-                    "light or more. Umbra: where PCF of the full disc on a map of 4096 x 4096 is "
-                    "dark all around.",
+                    "light or more. Umbra: where PCF of the full disc is dark all around, so that "
+                    "its own is 0 by definition.",
          .finding = "As in the paper: where a shadow's edge lies inside another shadow, variance "
                     "maps let light through; PCF leaves none. The paper shows a car, ours has "
                     "spheres as in Fig. 3 of Gumbau et al."},
