@@ -101,6 +101,23 @@ TEST(RandomObserverFit, IntervalOfABalancedStudyIsTheTTestOverObservers) {
     EXPECT_NEAR(between(fit) / between(plain), 8.0 / 7.0, 0.05);
 }
 
+// Thousands of trials tell where an observer lies much better than where the population does.
+TEST(RandomObserverFit, ManyTrialsOfFewObserversHoldNeitherTheSearchNorTheInterval) {
+    std::vector<double> sizes;
+    for (int k = 1; k <= 40; ++k) sizes.push_back(k);
+    const tests::StudyPlan plan{.observers = 5, .sizes = sizes, .trials = 20};
+    const Study study = tests::simulateStudy(plan, 36);
+    const Model model = slopeModel(study, perGroupDesign(study), quest::kPaperCriterion);
+    const RandomObserverFit fit = fitRandomObservers(model, startAt(model, 0.5, 3.5, 0.1, 0.05));
+    ASSERT_TRUE(fit.converged) << fit;
+    EXPECT_LT(fit.evaluations, 80);  // 40 here; hundreds where the points hold the search
+    const LinearEstimate c = linearEstimate(fit, VectorXd::Ones(1));
+    const double between = std::hypot(fit.parameters.tau, fit.parameters.omega / std::sqrt(40.0));
+    // The trials' own error, .06 log10 a cell, adds a part in a hundred.
+    EXPECT_NEAR(c.standardError, between / std::sqrt(5.0), 0.03 * c.standardError);
+    EXPECT_NEAR(c.degreesOfFreedom, 4, 0.1);
+}
+
 TEST(RandomObserverFit, OneObserverHasNoInterval) {
     tests::StudyPlan plan{.observers = 1};
     const Study study = tests::simulateStudy(plan, 34);
