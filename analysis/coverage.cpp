@@ -100,6 +100,7 @@ struct StudyOutcome {
     std::vector<Estimate> estimates;
     // With guessing observers:
     std::optional<double> screenedShift, unscreenedShift;
+    std::string comparisonError;  // empty, or why one of them is missing
     int guessersExcluded = 0, attentiveExcluded = 0;
 };
 
@@ -174,16 +175,20 @@ SlopeAnalysis analysed(const std::vector<records::TrialTable>& tables, const Cov
 // The same study with its guessers attentive, and with nobody excluded.
 void compareGuessing(const CoveragePlan& plan, std::uint64_t seed, const SlopeAnalysis& screened,
                      const std::vector<records::TrialTable>& tables, StudyOutcome& outcome) {
-    const double attentive =
-        analysed(simulatedTables(plan, seed, 0), plan, true).slope.headline.value;
     const int attentives = plan.observers - plan.guessing;
     for (std::size_t i = 0; i < screened.screening.size(); ++i) {
         int& count =
             static_cast<int>(i) < attentives ? outcome.attentiveExcluded : outcome.guessersExcluded;
         count += screened.screening[i].excluded ? 1 : 0;
     }
-    outcome.screenedShift = screened.slope.headline.value - attentive;
-    outcome.unscreenedShift = analysed(tables, plan, false).slope.headline.value - attentive;
+    try {
+        const double attentive =
+            analysed(simulatedTables(plan, seed, 0), plan, true).slope.headline.value;
+        outcome.screenedShift = screened.slope.headline.value - attentive;
+        outcome.unscreenedShift = analysed(tables, plan, false).slope.headline.value - attentive;
+    } catch (const std::runtime_error& error) {  // the study itself has its slope
+        outcome.comparisonError = error.what();
+    }
 }
 
 StudyOutcome fitOne(const CoveragePlan& plan, const Truth& truth, std::uint64_t seed) {
@@ -262,14 +267,17 @@ std::optional<GuessingEffect> guessingEffect(const CoveragePlan& plan,
     std::vector<double> screened, unscreened;
     int guessers = 0, attentive = 0;
     for (const StudyOutcome& outcome : outcomes) {
-        if (!outcome.screenedShift) continue;
-        screened.push_back(*outcome.screenedShift);
-        unscreened.push_back(*outcome.unscreenedShift);
+        if (!outcome.error.empty()) continue;
+        if (outcome.screenedShift) screened.push_back(*outcome.screenedShift);
+        if (outcome.unscreenedShift) unscreened.push_back(*outcome.unscreenedShift);
+        if (!outcome.comparisonError.empty() && effect.incomplete++ == 0) {
+            effect.firstError = outcome.comparisonError;
+        }
+        ++effect.studies;
         guessers += outcome.guessersExcluded;
         attentive += outcome.attentiveExcluded;
     }
-    if (screened.empty()) return std::nullopt;
-    effect.studies = static_cast<int>(screened.size());
+    if (plan.guessing == 0 || screened.empty() || unscreened.empty()) return std::nullopt;
     effect.screenedMedian = median(screened);
     effect.screenedError = errorOfMedian(standardDeviation(screened), screened.size());
     effect.unscreenedMedian = median(unscreened);

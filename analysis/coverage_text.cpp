@@ -62,6 +62,12 @@ std::vector<std::string> coverageFindings(const Coverage& coverage) {
                         percent(effect.unscreenedError) + " % without. Screening excludes " +
                         fixedText(100 * effect.guessersExcluded, 1) + " % of the guessers and " +
                         fixedText(100 * effect.attentiveExcluded, 1) + " % of the others.");
+        if (effect.incomplete > 0) {
+            lines.push_back("In " + std::to_string(effect.incomplete) +
+                            " of them the study with attentive observers alone or that with "
+                            "nobody left out gave no slope, and is missing in this; the first: " +
+                            effect.firstError);
+        }
     }
     if (coverage.withoutSlope > 0) {
         lines.push_back(
