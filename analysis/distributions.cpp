@@ -109,12 +109,4 @@ double chiSquaredSurvival(double x, double df) {
     return gammaContinuedFraction(a, x / 2);
 }
 
-double rateLowerBound(int events, int n, double confidence) {
-    if (events <= 0 || n <= 0) return 0;
-    // P(at least `events` at rate p) = I_p(events, n - events + 1).
-    const double a = events, b = n - events + 1;
-    return crossing([a, b](double p) { return incompleteBeta(a, b, p); }, 1.0 - confidence, 0.0,
-                    1.0);
-}
-
 }  // namespace analysis

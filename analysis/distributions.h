@@ -24,9 +24,4 @@ double chiSquaredSurvival(double x, double df);
 /// Regularised incomplete beta function I_x(a, b); a, b > 0, 0 <= x <= 1.
 double incompleteBeta(double a, double b, double x);
 
-/// Lower end of the exact one-sided interval for a rate of which `events` in `n` were seen
-/// (C. J. Clopper and E. S. Pearson, Biometrika 26, 1934): the rate at which so many or more events
-/// have probability 1 - confidence. 0 for no event.
-double rateLowerBound(int events, int n, double confidence);
-
 }  // namespace analysis

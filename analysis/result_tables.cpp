@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/estimators.h"
 #include "analysis/number_text.h"
 #include "analysis/observer_slopes.h"
 
@@ -48,70 +49,6 @@ void appendSlope(Row& row, const std::optional<double>& log10c,
     row.push_back(log10c ? full(std::pow(10.0, *log10c)) : kUnknown);
     row.push_back(ci95 ? full(std::pow(10.0, ci95->low)) : kUnknown);
     row.push_back(ci95 ? full(std::pow(10.0, ci95->high)) : kUnknown);
-}
-
-struct Estimator {
-    std::string name, assumes;
-    std::optional<double> log10c;
-    std::optional<records::Interval> ci95;
-};
-
-std::vector<Estimator> estimators(const SlopeAnalysis& analysis) {
-    const SlopeResult& slope = analysis.slope;
-    std::vector<Estimator> rows = {
-        {"headline: worst group, mean observer",
-         slope.lawRejected ? "largest slope over groups and measured sizes"
-                           : "r = c a within a group; largest slope over groups",
-         slope.headline.value, slope.headline.ci95},
-        {"worst group, 90th-percentile observer", "observers normal in log10 c",
-         slope.headline.value90, slope.headline.ci95For90},
-        {"overall, one-stage", "mean of the groups' log10 c; random observers",
-         analysis.overall.value, analysis.overall.ci95()},
-        {"overall, two-stage", "mean over observers of log10 thresholds; leaves censored cells out",
-         analysis.twoStage.log10c, analysis.twoStage.ci95},
-        {"overall, two-stage median", "median over observers", analysis.twoStage.medianLog10c, {}}};
-    if (analysis.lines.throughOrigin) {
-        rows.push_back({"all conditions, least squares through the origin in px (published method)",
-                        "radii scatter equally at every size; about 4 % too large; no interval",
-                        std::log10(*analysis.lines.throughOrigin),
-                        {}});
-    }
-    if (const auto& line = analysis.lines.powerLaw) {
-        rows.push_back({"all conditions, least squares of log r on log a, at a = " +
-                            shortText(line->referencePx) + " px, exponent " +
-                            fixedText(line->exponent, 2),
-                        "radii scatter by a factor; thresholds are independent; no interval",
-                        line->log10c,
-                        {}});
-    }
-    if (const auto& line = analysis.lines.affine; line && line->slope > 0) {
-        rows.push_back({"slope of r = " + fixedText(line->interceptPx, 1) +
-                            " px + s a, least squares in px (is not c)",
-                        "radii scatter equally at every size; no interval",
-                        std::log10(line->slope),
-                        {}});
-    }
-    if (analysis.bootstrap) {
-        const std::string draws = std::to_string(analysis.bootstrap->draws) + " draws";
-        rows.push_back({"headline, bootstrap over observers, " + draws,
-                        "no distribution of the observers; too short with few of them",
-                        slope.headline.value, analysis.bootstrap->headline});
-        rows.push_back({"90th-percentile observer, bootstrap over observers, " + draws, "likewise",
-                        slope.headline.value90, analysis.bootstrap->ninetieth});
-        rows.push_back({"overall, bootstrap over observers, " + draws, "likewise",
-                        analysis.overall.value, analysis.bootstrap->overall});
-    }
-    if (analysis.pooled && analysis.pooled->converged) {
-        rows.push_back({"overall, pooled maximum likelihood",
-                        "all trials from one observer; an interval would be far too short",
-                        analysis.pooled->fixed.mean(),
-                        {}});
-    }
-    if (analysis.everyone) {
-        rows.push_back({"headline with the excluded observers", "as the headline, nobody left out",
-                        analysis.everyone->headline.value, analysis.everyone->headline.ci95});
-    }
-    return rows;
 }
 
 TextTable groupFile(const SlopeAnalysis& analysis) {
@@ -539,41 +476,6 @@ std::vector<TextTable> reportTables(const SlopeAnalysis& analysis,
         everyoneTable(analysis, true)};
     std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
     return tables;
-}
-
-std::string tsvText(const TextTable& table) {
-    std::string text;
-    const auto add = [&](const Row& row) {
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            if (i > 0) text += '\t';
-            text += row[i];
-        }
-        text += '\n';
-    };
-    add(table.head);
-    for (const Row& row : table.rows) add(row);
-    return text;
-}
-
-std::string alignedText(const TextTable& table) {
-    std::vector<std::size_t> width(table.head.size(), 0);
-    const auto widen = [&](const Row& row) {
-        for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-    };
-    widen(table.head);
-    for (const Row& row : table.rows) widen(row);
-    std::string text;
-    const auto add = [&](const Row& row) {
-        std::string line;
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            line += row[i];
-            if (i + 1 < row.size()) line.append(width[i] + 2 - row[i].size(), ' ');
-        }
-        text += line + '\n';
-    };
-    add(table.head);
-    for (const Row& row : table.rows) add(row);
-    return text;
 }
 
 }  // namespace analysis

@@ -23,7 +23,7 @@ double tail(int events, int n, double rate) {
 
 std::string percent(double share) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
+    std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
     return text;
 }
 

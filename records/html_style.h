@@ -11,7 +11,7 @@ inline constexpr std::string_view kHtmlStyle = R"css(
 :root {
   color-scheme: light dark;
   --ground: #fbfbfa; --ink: #1f2328; --quiet: #5b636d; --line: #dfe2e6; --raised: #f1f3f5;
-  --accent: #1f5fa8; --paper: #fff; --note: #fff6df; --note-line: #d9a520;
+  --accent: #1f5fa8; --paper: #fff; --shade: rgba(0, 0, 0, .22); --note: #fff6df; --note-line: #d9a520;
 }
 @media (prefers-color-scheme: dark) {
   :root {
@@ -20,7 +20,7 @@ inline constexpr std::string_view kHtmlStyle = R"css(
   }
 }
 @media screen and (prefers-color-scheme: dark) {
-  :root { --paper: #1a1a1a; } /* what the filter makes of white */
+  :root { --paper: #1a1a1a; --shade: rgba(255, 255, 255, .22); } /* what the filter makes of white */
   .paper svg { filter: invert(0.9) hue-rotate(180deg); }
 }
 * { box-sizing: border-box; }
@@ -86,7 +86,15 @@ pre {
   .paper { padding: .35rem; }
   dl { grid-template-columns: 1fr; gap: .1rem; }
   dd { margin-bottom: .7rem; }
-  .paper svg { min-width: 40rem; } /* scrolls, rather than shrinking its lettering beyond reading */
+  .paper svg { min-width: 34rem; } /* scrolls, rather than shrinking its lettering beyond reading */
+  .paper, .scroll { /* shaded at the side where more of it lies */
+    background:
+      linear-gradient(to right, var(--paper) 40%, transparent) 0 0 / 3rem 100% no-repeat local,
+      linear-gradient(to left, var(--paper) 40%, transparent) 100% 0 / 3rem 100% no-repeat local,
+      linear-gradient(to right, var(--shade), transparent) 0 0 / 1rem 100% no-repeat scroll,
+      linear-gradient(to left, var(--shade), transparent) 100% 0 / 1rem 100% no-repeat scroll,
+      var(--paper);
+  }
 }
 @media print {
   :root {
@@ -96,13 +104,12 @@ pre {
   body { font-size: 10.5pt; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   main { max-width: none; padding: 0; }
   h2, h3, .table figcaption { break-after: avoid; }
-  .headline, .note, figure:not(.table), figcaption, tr, dd { break-inside: avoid; }
-  dt { break-after: avoid; }
+  .headline, .note, figure:not(.table), figcaption, tr, dt, dd { break-inside: avoid; }
   thead { display: table-header-group; }
   .scroll { overflow: visible; max-height: none; border: 0; width: auto; }
   .gallery { grid-template-columns: 1fr 1fr; }
-  .paper svg { max-height: 20cm; }
-  .paper { padding: 0; border: 0; }
+  .paper svg { max-height: 20cm; max-width: 15cm; margin: 0; } /* two of usual shape on a page */
+  .paper { padding: 0; border: 0; overflow: visible; }
   table { font-size: .82rem; }
   th, td { padding: .2rem .5rem; }
   pre { max-height: none; white-space: pre-wrap; overflow-wrap: anywhere; }

@@ -41,18 +41,4 @@ TEST(Distributions, BetaIsSymmetricAndTheIntegralOfItsDensity) {
     EXPECT_NEAR(incompleteBeta(2, 3, 0.4), 0.5248, 1e-14);  // polynomial: 6x^2 - 8x^3 + 3x^4
 }
 
-TEST(Distributions, LowerBoundOfARateIsWhereSoManyEventsHaveProbabilityFivePercent) {
-    const int events = 14, n = 77;
-    const double p = rateLowerBound(events, n, 0.95);
-    double atLeast = 0;
-    for (int k = events; k <= n; ++k) {
-        atLeast += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) +
-                            k * std::log(p) + (n - k) * std::log1p(-p));
-    }
-    EXPECT_NEAR(atLeast, 0.05, 1e-10);
-    EXPECT_EQ(rateLowerBound(0, 77, 0.95), 0);
-    EXPECT_EQ(rateLowerBound(0, 0, 0.95), 0);
-    EXPECT_NEAR(rateLowerBound(5, 5, 0.95), std::pow(0.05, 0.2), 1e-12);
-}
-
 }  // namespace

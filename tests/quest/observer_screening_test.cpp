@@ -35,7 +35,7 @@ TEST(ObserverScreening, LowerBoundIsTheRateAtWhichSoManyEventsHaveProbabilityFiv
 TEST(ObserverScreening, LeavesOutWhoseFalseAlarmsCannotBeChance) {
     EXPECT_EQ(falseAlarmProblem(3, 12, {}), "");
     EXPECT_EQ(falseAlarmProblem(4, 12, {}),
-              "4 false alarms in 12 reference trials: lower 95.0 % bound 12.3 %, limit 10.0 %");
+              "4 false alarms in 12 reference trials: lower 95 % bound 12.3 %, limit 10 %");
     EXPECT_EQ(falseAlarmProblem(4, 12, {.falseAlarmRate = 0.2}), "");
     EXPECT_NE(falseAlarmProblem(0, 0, {}), "");
 }
