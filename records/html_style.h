@@ -11,7 +11,7 @@ inline constexpr std::string_view kHtmlStyle = R"css(
 :root {
   color-scheme: light dark;
   --ground: #fbfbfa; --ink: #1f2328; --quiet: #5b636d; --line: #dfe2e6; --raised: #f1f3f5;
-  --accent: #1f5fa8; --paper: #fff; --shade: rgba(0, 0, 0, .22); --note: #fff6df; --note-line: #d9a520;
+  --accent: #1f5fa8; --paper: #fff; --shade: rgba(0, 0, 0, .22); --over-shade: darken; --note: #fff6df; --note-line: #d9a520;
 }
 @media (prefers-color-scheme: dark) {
   :root {
@@ -20,7 +20,7 @@ inline constexpr std::string_view kHtmlStyle = R"css(
   }
 }
 @media screen and (prefers-color-scheme: dark) {
-  :root { --paper: #1a1a1a; --shade: rgba(255, 255, 255, .22); } /* what the filter makes of white */
+  :root { --paper: #1a1a1a; --shade: rgba(255, 255, 255, .22); --over-shade: lighten; } /* what the filter makes of white */
   .paper svg { filter: invert(0.9) hue-rotate(180deg); }
 }
 * { box-sizing: border-box; }
@@ -94,7 +94,9 @@ pre {
       linear-gradient(to right, var(--shade), transparent) 0 0 / 1rem 100% no-repeat scroll,
       linear-gradient(to left, var(--shade), transparent) 100% 0 / 1rem 100% no-repeat scroll,
       var(--paper);
+    isolation: isolate;
   }
+  .paper svg { mix-blend-mode: var(--over-shade); } /* its ground would cover the shade */
 }
 @media print {
   :root {
