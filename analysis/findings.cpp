@@ -15,6 +15,7 @@ constexpr std::size_t kNamesListed = 6;  // of observers in one sentence
 // Chosen by eye: what agrees with the law and with half as much again says nothing of the law.
 constexpr double kTellingChange = 0.5;
 constexpr double kMisfit = 1.5;  // X^2 over its degrees of freedom: intervals a fifth too short
+constexpr int kTellingTrials = 3000;  // half of what finds three misfits in four (docs/analysis.md)
 constexpr double kNearGuessing = 0.65;  // P(correct) in 2AFC
 
 std::string countText(int count, const std::string& one) {
@@ -212,7 +213,10 @@ std::string dispersionFinding(const SlopeAnalysis& analysis) {
                               fixedText(spread.ratio(), 2) + " where the model has 1 (" +
                               pValueText(spread.pValue) + "). ";
     if (spread.pValue >= kLevel) {
-        return found + "That the answers scatter more than the model says is not demonstrable.";
+        return found + "That the answers scatter more than the model says is not demonstrable" +
+               (trialCount(analysis.study) < kTellingTrials
+                    ? "; with so few trials only a gross misfit would be."
+                    : ".");
     }
     return found +
            "The answers scatter more than the model says: its intervals are too short, by a "

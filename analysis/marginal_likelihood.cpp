@@ -198,17 +198,16 @@ bool MarginalLikelihood::findMode(std::size_t i, const ModelParameters& at) {
 void MarginalLikelihood::placePoints(std::size_t i, const ModelParameters& at) {
     const auto& cells = model_.observers[i].cells;
     Points& points = points_[i];
-    double weight = 0;
-    points.meanRow = VectorXd::Zero(model_.design.cols());
+    points.information = 0;
+    points.rows = VectorXd::Zero(model_.design.cols());
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const double w = points.curvature[k] / (1 + square(at.omega) * points.curvature[k]);
-        weight += w;
-        points.meanRow += w * model_.design.row(cells[k].condition).transpose();
+        points.information += w;
+        points.rows += w * model_.design.row(cells[k].condition).transpose();
     }
-    if (weight > 0) points.meanRow /= weight;
-    const double precision = 1 + square(at.tau) * weight;
+    const double precision = 1 + square(at.tau) * points.information;
+    points.score = at.tau > 0 ? points.observer * precision / at.tau : 0;
     points.observerSd = 1 / std::sqrt(precision);
-    points.told = 1 - 1 / precision;
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const double t = 1 / (1 + square(at.omega) * points.curvature[k]);
         points.cellSd[k] = std::sqrt(t);
@@ -219,7 +218,7 @@ void MarginalLikelihood::placePoints(std::size_t i, const ModelParameters& at) {
 bool MarginalLikelihood::adapt(const VectorXd& x) {
     if (!x.allFinite()) return false;
     const ModelParameters at = fromCoordinates(x, model_);
-    adapted_ = at;
+    adaptedFixed_ = at.fixed;
     for (std::size_t i = 0; i < model_.observers.size(); ++i) {
         if (!findMode(i, at)) {
             // The last mode may have led astray; once more from the centre of the prior.
@@ -244,15 +243,12 @@ double MarginalLikelihood::integrate(std::size_t i, const ModelParameters& at, V
     for (auto* values : {&bigN_, &y_}) values->resize(outers * inners);
     weight_.resize(inners);
     means_.assign(gradient ? cells.size() * outers : 0, {});
-    const bool moves = points.told > 0;  // and tau > 0 in adapt()
-    const double stretch = moves ? std::pow(adapted_.tau / at.tau, points.told) : 1;
-    const double perShift = moves ? points.told / adapted_.tau : 0;
-    const double centreU =
-        points.observer - perShift * points.meanRow.dot(at.fixed - adapted_.fixed);
+    const double variance = 1 / (1 + square(at.tau) * points.information);
+    const double sd = std::sqrt(variance);
+    const double score = points.score - points.rows.dot(at.fixed - adaptedFixed_);
     for (std::size_t a = 0; a < outers; ++a) {
-        bigU_[a] = stretch * (centreU + points.observerSd * outer.point[a]);
-        logOuter_[a] =
-            outer.logWeight[a] + std::log(stretch * points.observerSd) - 0.5 * square(bigU_[a]);
+        bigU_[a] = at.tau * score * variance + sd * outer.point[a];
+        logOuter_[a] = outer.logWeight[a] + std::log(sd) - 0.5 * square(bigU_[a]);
     }
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const double centre = location(i, k, at, 0, 0), logSd = std::log(points.cellSd[k]);
@@ -292,14 +288,20 @@ double MarginalLikelihood::integrate(std::size_t i, const ModelParameters& at, V
     const auto fixedCount = model_.design.cols();
     const auto lapseIndex = fixedCount + model_.betaCount;
     observerEffect_[i] = 0;
-    double perU = 0;  // at every point alike, as b moves them
+    double perU = 0, perTau = -at.tau * points.information * variance;  // by way of the points
     for (std::size_t a = 0; a < outers; ++a) {
         observerEffect_[i] += logOuter_[a] * at.tau * bigU_[a];
-        if (!moves) continue;
-        (*gradient)[lapseIndex + 1] +=
-            copies * logOuter_[a] * points.told * (square(bigU_[a]) - 1) / at.tau;
-        perU -= copies * logOuter_[a] * bigU_[a];
+        double own = -bigU_[a];
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            own += at.tau * means_[k * outers + a].perY;
+        }
+        perU += logOuter_[a] * own;
+        perTau += logOuter_[a] * own *
+                  (score * variance * (2 * variance - 1) -
+                   at.tau * points.information * variance * sd * outer.point[a]);
     }
+    (*gradient)[lapseIndex + 1] += copies * perTau;
+    gradient->head(fixedCount) -= copies * perU * at.tau * variance * points.rows;
     for (std::size_t k = 0; k < cells.size(); ++k) {
         double perY = 0, perLnBeta = 0;
         cellLocation_[i][k] = 0;
@@ -310,16 +312,14 @@ double MarginalLikelihood::integrate(std::size_t i, const ModelParameters& at, V
             perY += weight * mean.perY;
             perLnBeta += weight * mean.perLnBeta;
             (*gradient)[lapseIndex] += weight * mean.perLapse;
-            (*gradient)[lapseIndex + 1] += weight * mean.perY * bigU_[a] * (1 - points.told);
+            (*gradient)[lapseIndex + 1] += weight * mean.perY * bigU_[a];
             (*gradient)[lapseIndex + 2] += weight * mean.perYN;
         }
         const int condition = cells[k].condition;
-        perU += at.tau * perY;
         gradient->head(fixedCount) += perY * model_.design.row(condition).transpose();
         (*gradient)[fixedCount + model_.betaIndex[static_cast<std::size_t>(condition)]] +=
             perLnBeta;
     }
-    if (moves) gradient->head(fixedCount) -= stretch * perShift * perU * points.meanRow;
     return value;
 }
 

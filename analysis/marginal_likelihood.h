@@ -15,11 +15,10 @@
 //
 // Adaptive points would make the likelihood depend on where they were adapted, so adapt() and
 // evaluate() are apart: between two calls of adapt() the points stay, the likelihood is a smooth
-// function, and its gradient is exact. What stays of an observer's points when b and tau change
-// follows what the answers tell: his locations y where they tell all, u_i / tau where they tell
-// nothing, between the two in proportion, as O. Papaspiliopoulos, G. O. Roberts and M. Skold (Stat.
-// Sci. 22, 2007) choose coordinates. With u_i / tau alone, hundreds of trials per observer hold b
-// and tau near where the points were placed, and adapting and climbing do not come to an end.
+// function, and its gradient is exact. An observer's points are not held in units of tau: they
+// follow b and tau as those of a normal likelihood would, whose mode and curvature adapt() found.
+// Held, thousands of trials keep b and tau near where the points were placed, adapting and climbing
+// do not come to an end, and the curvature found between two calls is too large.
 //
 // Restricted (REML) form: - 1/2 ln det J is added, J the information on b of the linear mixed model
 // with the curvatures found by adapt(). It removes the downward bias that tau has in a joint
@@ -124,12 +123,13 @@ class MarginalLikelihood {
   private:
     // Where an observer's effects are integrated, in units of their prior sd: u_i = tau U, v_ik =
     // omega N_k, so that tau = 0 is no special case. Given U, N_k is centred at cell[k] +
-    // cellSlope[k] (U - observer). Away from where adapt() placed them U is less by told meanRow' (b
-    // - b there) / (tau there), then (tau there / tau)^told times as large; N_k is the same.
+    // cellSlope[k] (U - observer). Away from where adapt() placed them U's centre and sd are those
+    // that a normal likelihood of u_i would give, ln L = score u - information u^2 / 2, whose score
+    // falls by rows' (b - b there); N_k is the same.
     struct Points {
         double observer = 0, observerSd = 1;
-        double told = 0;          // share of U's prior variance that the answers remove, [0, 1)
-        Eigen::VectorXd meanRow;  // of the design, over the observer's cells by their information
+        double score = 0, information = 0;
+        Eigen::VectorXd rows;  // of the design, summed over the observer's cells by information
         std::vector<double> cell, cellSlope, cellSd;
         std::vector<double> curvature;  // w_k = -l'' at the mode, at least 0
     };
@@ -152,7 +152,7 @@ class MarginalLikelihood {
     const Model& model_;
     Quadrature quadrature_ = Quadrature::fine;
     std::vector<Points> points_;
-    ModelParameters adapted_;  // where adapt() placed them
+    Eigen::VectorXd adaptedFixed_;  // b where adapt() placed them
     CellPoints cellPoints_;
     // Of integrate(), kept between calls for their memory.
     std::vector<double> logOuter_, bigU_, weight_, bigN_, y_;

@@ -29,8 +29,8 @@ constexpr double kSecondLapse = 0.04, kScaleOfSpread = 0.03;
 constexpr double kSameLapse = 0.002;  // two searches that end this near have found one maximum
 constexpr int kMostRounds = 40;       // of adapting the points and climbing
 constexpr int kFullRounds = 6;
-// A round that starts this near to its maximum (.01 standard errors) is the last.
-constexpr double kSettled = 1e-4;
+// A round that starts this near to its maximum (.003 standard errors) is the last.
+constexpr double kSettled = 1e-5;
 constexpr double kEnoughOfARound = 1e-3;  // of its first decrement: the next one moves the maximum
 constexpr double kLeastSpread = 0.01;     // log10 units; off zero, where the likelihood is level
 constexpr double kHalfPi = 1.57079632679489662;

@@ -158,7 +158,7 @@ TEST(Screening, FindsTheObserverWhoPressesAtRandomInEitherTask) {
     // A guesser passes the 2AFC rule with probability 2e-3 (at most 6 of 30 wrong), an attentive
     // one breaks either rule with less than 1e-3; the seed is fixed.
     EXPECT_TRUE(rows[0].excluded);
-    EXPECT_THAT(rows[0].reason, HasSubstr("of 30 catch trials failed, limit 20.0 %"));
+    EXPECT_THAT(rows[0].reason, HasSubstr("of 30 catch trials failed, limit 20 %"));
     for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_FALSE(rows[i].excluded) << rows[i].reason;
 
     plan.yesNo = true;
