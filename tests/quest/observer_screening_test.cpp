@@ -42,7 +42,7 @@ TEST(ObserverScreening, LeavesOutWhoseFalseAlarmsCannotBeChance) {
 
 TEST(ObserverScreening, LeavesOutWhoMissesMoreThanAFifthOfWhatNobodyOverlooks) {
     EXPECT_EQ(catchProblem(2, 10, {}), "");
-    EXPECT_EQ(catchProblem(3, 10, {}), "3 of 10 catch trials failed, limit 20.0 %");
+    EXPECT_EQ(catchProblem(3, 10, {}), "3 of 10 catch trials failed, limit 20 %");
     EXPECT_EQ(catchProblem(0, 0, {}), "");
 }
 
