@@ -219,7 +219,7 @@ std::vector<PaperFigure> gradient() {
                      "gsm",
                      {{"gradient", 0}, {"pattern", 1}}}},
          .setting = "Hills in grazing light, N = 1024, the paper's circle of eight at half a texel "
-                    "and its bias of 1/32 of a texel's slope. Lit surfaces: those that a map of "
+                    "and our bias of 1/32 of a texel's slope. Lit surfaces: those that a map of "
                     "4096 x 4096 says are lit all around.",
          .finding =
              "The paper shows a picture free of acne; so are ours on lit surfaces, with the "
