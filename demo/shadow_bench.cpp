@@ -233,7 +233,7 @@ int main(int argc, char** argv) {
         "softness."};
     Options options;
     options.command.assign(argv, argv + argc);
-    app.add_option("--scenes", options.scenes, "scenes or model files; default: all built-in ones")->delimiter(',');
+    app.add_option("--scenes", options.scenes, "scenes or model files; default: all built-in ones without lamps")->delimiter(',');
     app.add_option("--techniques", options.techniques, "techniques; default: all with a kernel; a sweep also takes NAME:PARAMETER=NUMBER")
         ->delimiter(',');
     app.add_option("--resolutions", options.resolutions,
