@@ -18,6 +18,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostModeSteps = 200;
 // Newton's decrement (twice the log-likelihood still to gain) that is near enough for a centre.
 constexpr double kModeReached = 1e-6;
+// On a slope, per log10 units squared: a thousandth of what ten trials at the threshold say.
+constexpr double kLeastInformation = 0.1;
 constexpr std::size_t kFinePoints[] = {5, 7}, kCoarsePoints[] = {3, 4};  // observer, cell
 
 double square(double v) {
@@ -376,8 +378,13 @@ double MarginalLikelihood::restriction(const ModelParameters& at, VectorXd* grad
     for (std::size_t i = 0; i < all.size(); ++i) {
         information_ -= model_.observers[i].copies * all[i].s * all[i].xm * all[i].xm.transpose();
     }
-    const Eigen::LLT<MatrixXd> factor(information_);
-    if (factor.info() != Eigen::Success) return kNaN;
+    Eigen::LLT<MatrixXd> factor(information_);
+    if (factor.info() != Eigen::Success) {
+        // Where a search begins a condition's likelihood may curve upwards and say nothing of b.
+        information_.diagonal().array() += kLeastInformation;
+        factor.compute(information_);
+        if (factor.info() != Eigen::Success) return kNaN;
+    }
     if (gradient) {
         const MatrixXd inverse = factor.solve(MatrixXd::Identity(fixedCount, fixedCount));
         double perTau2 = 0, perOmega2 = inverse.cwiseProduct(squareForm(m2)).sum();
