@@ -15,11 +15,7 @@
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kWidth = 40, kHeight = 24;  // instrumented rays take ten times as long
-#else
 constexpr int kWidth = 120, kHeight = 72;
-#endif
 
 TEST(AreaLightTruth, OfAStraightEdgeIsTheDiscsProfile) {
     const renderer::HeadlessContext context;
