@@ -60,8 +60,8 @@ struct EstimatorCoverage {
 /// guessers were attentive as well.
 struct GuessingEffect {
     int studies = 0;
-    int incomplete = 0;           ///< of them without one of the two shifts
-    std::string firstError = {};  ///< of these
+    int incomplete = 0;                                ///< of them without one of the two shifts
+    std::string firstError = {};                       ///< of these
     double screenedMedian = 0, screenedError = 0;      ///< of log10 c, excluded by the rules
     double unscreenedMedian = 0, unscreenedError = 0;  ///< of log10 c, nobody excluded
     double guessersExcluded = 0;                       ///< share

@@ -54,7 +54,8 @@ std::vector<Estimator> estimators(const SlopeAnalysis& analysis) {
     }
     if (analysis.pooled && analysis.pooled->converged) {
         rows.push_back({"overall, pooled maximum likelihood",
-                        "all trials from one observer, whose curve comes out too flat; an interval would be far "
+                        "all trials from one observer, whose curve comes out too flat; an interval "
+                        "would be far "
                         "too short",
                         analysis.pooled->fixed.mean(),
                         {}});

@@ -13,7 +13,7 @@ namespace analysis {
 
 struct Estimator {
     std::string name, assumes;
-    std::optional<double> log10c;          ///< absent where it cannot be had
+    std::optional<double> log10c;           ///< absent where it cannot be had
     std::optional<records::Interval> ci95;  ///< log10; absent for those that have none
 };
 

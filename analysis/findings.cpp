@@ -306,13 +306,15 @@ std::string screeningFinding(const SlopeAnalysis& analysis) {
     if (!rules.apply) return "Switched off.";
     if (!couldBeScreened(analysis)) return "Nobody could be screened: there are no catch trials.";
     std::string text = analysis.study.task == records::Task::yesNo
-                           ? "The rule leaves out whoever has a false-alarm rate whose lower 95 % bound is above " +
+                           ? "The rule leaves out whoever has a false-alarm rate whose lower 95 % "
+                             "bound is above " +
                                  shortText(100 * rules.limits.falseAlarmRate) + " %"
                            : "The rule leaves out whoever fails more than " +
                                  shortText(100 * rules.limits.catchFailureShare) +
                                  " % of the catch trials";
     if (excluded.empty()) return text + ": nobody.";
-    text += ": participant" + std::string(excluded.size() > 1 ? "s " : " ") + listed(excluded, "screening.tsv") + ".";
+    text += ": participant" + std::string(excluded.size() > 1 ? "s " : " ") +
+            listed(excluded, "screening.tsv") + ".";
     if (analysis.everyone) {
         const SlopeResult& all = *analysis.everyone;
         text += " With everyone c would be " + slopeText(all.headline.value, all.headline.ci95) +

@@ -45,9 +45,8 @@ ReferenceSizes referenceSizes(const Study& study) {
         const Group& group = study.groups[condition.group];
         if (group.pattern == records::Pattern::line) continue;  // seconds each: see the header
         const auto kernel = stimulus::kernelShapeFromText(group.kernel);
-        const auto encoding = group.encoding == records::Encoding::srgb
-                                  ? stimulus::Encoding::srgb
-                                  : stimulus::Encoding::code;
+        const auto encoding = group.encoding == records::Encoding::srgb ? stimulus::Encoding::srgb
+                                                                        : stimulus::Encoding::code;
         const auto silhouette = silhouetteOf(group, condition);
         if (!silhouette || !kernel) continue;
         const stimulus::ReferenceOptions options{.silhouette = *silhouette,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Truth for model errors: how much of an area light each pixel sees, by ray casting against the
-// scene's triangles (Embree). The light is the scene's sun as a disc of a given angular radius, or a
-// lamp: a disc or a ball somewhere. How wrong a technique is against it does not fall with N.
+// scene's triangles (Embree). The light is the scene's sun as a disc of a given angular radius, or
+// a lamp: a disc or a ball somewhere. How wrong a technique is against it does not fall with N.
 #pragma once
 
 #include <cstdint>

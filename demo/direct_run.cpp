@@ -79,10 +79,9 @@ class DirectRun {
         for (const PolicyComparison& comparison : comparisons_) {
             if (comparison.technique != technique) continue;
             for (const auto& entry : comparison.entries)
-                if (entry.result &&
-                    !done_.contains(keyOf(scene, std::to_string(frame), technique,
-                                          std::string(entry.policy->name),
-                                          tsvNumber(entry.result->parameter))))
+                if (entry.result && !done_.contains(keyOf(scene, std::to_string(frame), technique,
+                                                          std::string(entry.policy->name),
+                                                          tsvNumber(entry.result->parameter))))
                     list.push_back(*entry.result);
         }
         return list;
@@ -94,9 +93,8 @@ class DirectRun {
         const std::string& name = technique.name;
         const std::string slope = tsvNumber(settings_.slope.slope.c);
         const std::vector<PolicyResult> policies = missing(scene, frame, name);
-        const bool needsAuto =
-            !done_.contains(keyOf(scene, std::to_string(frame), name, std::string(kControllerRun),
-                                  slope));
+        const bool needsAuto = !done_.contains(
+            keyOf(scene, std::to_string(frame), name, std::string(kControllerRun), slope));
         const int reference = referenceOf(scene, frame, name);
         if ((policies.empty() && !needsAuto) || reference == 0) return;
 

@@ -6,8 +6,8 @@
 namespace demo {
 namespace {
 
-/// The .975 quantile of Student's t, within 1 %: by Fisher and Cornish's expansion from 3 degrees of
-/// freedom on.
+/// The .975 quantile of Student's t, within 1 %: by Fisher and Cornish's expansion from 3 degrees
+/// of freedom on.
 double studentQuantile(int degrees) {
     if (degrees == 1) return 12.706;
     if (degrees == 2) return 4.303;
@@ -39,15 +39,14 @@ GrowthExponent growthExponent(const std::vector<std::pair<double, double>>& poin
         products += (x - meanX) * (y - meanY);
     }
     if (!(squares > 0)) return {};
-    GrowthExponent growth{.exponent = products / squares,
-                          .points = static_cast<int>(logs.size())};
+    GrowthExponent growth{.exponent = products / squares, .points = static_cast<int>(logs.size())};
     for (const auto& [x, y] : logs) {
         const double off = y - meanY - growth.exponent * (x - meanX);
         growth.residual += off * off / count;
     }
     const int degrees = growth.points - 2;
-    growth.halfWidth95 = studentQuantile(degrees) *
-                         std::sqrt(growth.residual * count / (degrees * squares));
+    growth.halfWidth95 =
+        studentQuantile(degrees) * std::sqrt(growth.residual * count / (degrees * squares));
     growth.residual = std::sqrt(growth.residual);
     return growth;
 }

@@ -73,7 +73,8 @@ std::vector<renderer::Lamp> ringOfSpots(std::size_t count, const renderer::Bound
     const float radius = glm::distance(casters.low, casters.high);
     std::vector<renderer::Lamp> lamps(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(count);
+        const float angle =
+            glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(count);
         lamps[i].position = middle + radius * glm::vec3(std::sin(angle), 1, std::cos(angle));
         lamps[i].target = middle;
     }
@@ -184,19 +185,23 @@ class GrowthRun {
 
 std::string_view toText(GrowthAxis axis) {
     switch (axis) {
-        case GrowthAxis::mapSize: return "N";
-        case GrowthAxis::taps: return "taps";
-        case GrowthAxis::triangles: return "triangles";
-        case GrowthAxis::lights: return "lights";
-        case GrowthAxis::pixels: return "pixels";
+        case GrowthAxis::mapSize:
+            return "N";
+        case GrowthAxis::taps:
+            return "taps";
+        case GrowthAxis::triangles:
+            return "triangles";
+        case GrowthAxis::lights:
+            return "lights";
+        case GrowthAxis::pixels:
+            return "pixels";
     }
     return "";
 }
 
 void GrowthSettings::validate() const {
     if (rounds < 1)
-        throw std::invalid_argument("rounds is " + std::to_string(rounds) +
-                                    ", must be at least 1");
+        throw std::invalid_argument("rounds is " + std::to_string(rounds) + ", must be at least 1");
     if (techniques.empty()) throw std::invalid_argument("techniques must not be empty");
     if (reduction < 1)
         throw std::invalid_argument("reduction is " + std::to_string(reduction) +
@@ -238,8 +243,8 @@ std::vector<Growth> readGrowth(const std::filesystem::path& folder) {
             });
             const auto index = static_cast<std::size_t>(found - all.begin());
             if (found == all.end()) {
-                all.push_back({row.text("axis"), row.text("scene"), row.text("technique"), pass, {},
-                               {}});
+                all.push_back(
+                    {row.text("axis"), row.text("scene"), row.text("technique"), pass, {}, {}});
                 times.emplace_back();
             }
             times[index][row.number("value")].push_back(ms);

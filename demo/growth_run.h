@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How the cost of a frame grows with each thing that it depends on, one at a time: map size, taps,
-// casters' triangles, lights, viewport pixels. Visits go round all of them in turns, so that whatever else
-// the machine does falls on all.
+// casters' triangles, lights, viewport pixels. Visits go round all of them in turns, so that
+// whatever else the machine does falls on all.
 //
 // The journal growth_times.tsv in the folder holds one line for each visit; a killed run goes on
 // with it.

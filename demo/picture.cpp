@@ -128,7 +128,8 @@ renderer::ByteImage differenceLegend(double full) {
     for (int y = 0; y < kBar; ++y)
         for (int x = 0; x < kWidth; ++x)
             ramp.at(x, y) = static_cast<float>(full * (2.0 * x / (kWidth - 1) - 1));
-    const renderer::ByteImage bar = differencePicture(ramp, renderer::FloatImage(kWidth, kBar), full);
+    const renderer::ByteImage bar =
+        differencePicture(ramp, renderer::FloatImage(kWidth, kBar), full);
     renderer::ByteImage legend(kWidth, kHeight, 3);
     std::fill(legend.values.begin(), legend.values.end(), std::uint8_t{255});
     std::copy(bar.values.begin(), bar.values.end(), legend.values.begin());

@@ -57,7 +57,7 @@ struct PolicyComparison {
     double bound = 0;
     struct Entry {
         const SizingPolicy* policy = nullptr;
-        std::optional<PolicyResult> result;  ///< absent: it cannot keep to the bound
+        std::optional<PolicyResult> result;   ///< absent: it cannot keep to the bound
         std::optional<PolicyResult> nearest;  ///< then: with the least ripple, where measured
         /// Geometric mean of its time over ours; below 1 we lose, NaN without both.
         double timesOurs = std::numeric_limits<double>::quiet_NaN();

@@ -146,8 +146,7 @@ void sweep(const Options& options) {
             contextOf(options, context.info(), settings.widthPx, settings.heightPx);
         if (!options.reportAlone) demo::runSweep(context.info(), settings, run);
         if (!whole) return;  // the last to come reports: --report
-        if (options.direct || !options.reportAlone)
-            demo::runDirect(context.info(), settings, run);
+        if (options.direct || !options.reportAlone) demo::runDirect(context.info(), settings, run);
         if (options.model)
             demo::measureModelErrors(context.info(),
                                      {.scenes = settings.scenes,
@@ -233,8 +232,12 @@ int main(int argc, char** argv) {
         "softness."};
     Options options;
     options.command.assign(argv, argv + argc);
-    app.add_option("--scenes", options.scenes, "scenes or model files; default: all built-in ones without lamps")->delimiter(',');
-    app.add_option("--techniques", options.techniques, "techniques; default: all with a kernel; a sweep also takes NAME:PARAMETER=NUMBER")
+    app.add_option("--scenes", options.scenes,
+                   "scenes or model files; default: all built-in ones without lamps")
+        ->delimiter(',');
+    app.add_option(
+           "--techniques", options.techniques,
+           "techniques; default: all with a kernel; a sweep also takes NAME:PARAMETER=NUMBER")
         ->delimiter(',');
     app.add_option("--resolutions", options.resolutions,
                    "auto and map edges in texels; the largest is the reference")
@@ -246,7 +249,8 @@ int main(int argc, char** argv) {
                    "folder of fit_slope whose slope and figures go into the report");
     app.add_option("--width", options.width, "viewport width in px")->capture_default_str();
     app.add_option("--height", options.height, "viewport height in px")->capture_default_str();
-    app.add_option("--rounds", options.rounds, "timed visits of each cell; default: 5, in a sweep 3");
+    app.add_option("--rounds", options.rounds,
+                   "timed visits of each cell; default: 5, in a sweep 3");
     app.add_flag("--quick", options.quick, "half the viewport's edges, three rounds");
     app.add_flag(
         "--sweep", options.sweep,

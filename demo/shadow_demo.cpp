@@ -102,8 +102,8 @@ demo::ViewerState stateOf(const Options& options) {
     demo::ViewerState state;
     if (options.state && std::filesystem::exists(*options.state))
         state = demo::readViewerState(*options.state);
-    if (const auto own = ownStateFile(); inWindow(options) && !options.state && own &&
-                                         std::filesystem::exists(*own)) {
+    if (const auto own = ownStateFile();
+        inWindow(options) && !options.state && own && std::filesystem::exists(*own)) {
         try {
             state = demo::readViewerState(*own);
         } catch (const std::runtime_error& error) {
@@ -274,8 +274,10 @@ int main(int argc, char** argv) {
         demo::keyHelp()};
     Options options;
     options.command.assign(argv, argv + argc);
-    app.add_option("--scene", options.scene, "built-in scene (see --list-scenes), NAME:triangles=COUNT:cascades=COUNT\n"
-                   "for one with more triangles and several maps of the sun, or a model file (glTF, OBJ, PLY, ...); default: yard");
+    app.add_option("--scene", options.scene,
+                   "built-in scene (see --list-scenes), NAME:triangles=COUNT:cascades=COUNT\n"
+                   "for one with more triangles and several maps of the sun, or a model file "
+                   "(glTF, OBJ, PLY, ...); default: yard");
     app.add_option("--technique", options.technique,
                    "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,

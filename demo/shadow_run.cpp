@@ -102,13 +102,13 @@ void ShadowRun::step(renderer::PassClock* clock, bool cut) {
 
 void ShadowRun::draw(renderer::PassClock* clock, View view) {
     if (!settings_.resolution) {
-        // What joins renderer and controller (docs/engines.md shows these lines): an earlier frame's
-        // demand chooses this frame's size.
+        // What joins renderer and controller (docs/engines.md shows these lines): an earlier
+        // frame's demand chooses this frame's size.
         const auto reading = demand_.newest();
         rc::Frame about{.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels()};
         if (reading && view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
-        const rc::Decision choice = reading ? controller_.update(histogramOf(*reading), about)
-                                            : controller_.hold(about);
+        const rc::Decision choice =
+            reading ? controller_.update(histogramOf(*reading), about) : controller_.hold(about);
         frameSettings_.resolution = choice.size;
         frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
         frameSettings_.fadeFrom = choice.fadeFromSize;

@@ -42,8 +42,8 @@ struct ChosenResolution {
     double shareAbove = 0;   ///< share of the samples that ask for more
     double artifactRatio =
         0;  ///< texel over what the slope allows: above 1, stair-steps are seen more often
-    int detailTexels = 0;    ///< that thin casters ask for; 0: none do
-    double fadeWeight = 1;   ///< below 1 while a change of size is faded
+    int detailTexels = 0;   ///< that thin casters ask for; 0: none do
+    double fadeWeight = 1;  ///< below 1 while a change of size is faded
 };
 
 class ShadowRun {

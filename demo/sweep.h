@@ -28,8 +28,8 @@ struct Shard {
 Shard parseShard(const std::string& text, const std::string& option);
 
 struct SweepSettings {
-    std::vector<std::string> scenes;      ///< as openScene() takes them
-    std::vector<double> softness = {1};   ///< times each scene's own; each is a scene of its own
+    std::vector<std::string> scenes;     ///< as openScene() takes them
+    std::vector<double> softness = {1};  ///< times each scene's own; each is a scene of its own
     std::vector<SweptTechnique> techniques;
     std::vector<int> sizes;  ///< levels, ascending; the largest that can be had is the reference
     int frames = 2;          ///< of each scene's path, >= 1

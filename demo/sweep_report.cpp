@@ -81,8 +81,8 @@ void addHeadline(records::HtmlPage& page, const std::vector<PolicyComparison>& c
                 comparison.technique +
                 " at automatic size with c = " + formatted("%.2f", comparison.ours->parameter) +
                 ": whole frames, geometric mean over " + std::to_string(table.scenes.size()) +
-                " scenes, both with an edge ripple of at most " + formatted("%.3f", comparison.bound) +
-                " at 95 % of the contour pixels.");
+                " scenes, both with an edge ripple of at most " +
+                formatted("%.3f", comparison.bound) + " at 95 % of the contour pixels.");
     }
 }
 
@@ -131,10 +131,9 @@ void addPolicies(records::HtmlPage& page, Tables& tables,
                                    : NAN);
             rows.push_back(std::move(row));
         }
-    std::vector<std::string> head = {"technique",    "policy",           "bound",
-                                     "parameter",    "sizes",            "ripple p95",
-                                     "worst RMSE",   "ms",               "time / ours",
-                                     "direct ripple", "direct ms",       "standing"};
+    std::vector<std::string> head = {"technique",   "policy",        "bound",      "parameter",
+                                     "sizes",       "ripple p95",    "worst RMSE", "ms",
+                                     "time / ours", "direct ripple", "direct ms",  "standing"};
     for (const std::string& scene : table.scenes) head.push_back(scene);
     tables.add("policies", head, rows,
                "One row for each technique and policy. Where no value of the parameter keeps to "
@@ -176,9 +175,10 @@ void addPictures(records::HtmlPage& page, const SweepTable& table, const fs::pat
         for (const std::string& technique : table.techniques) {
             const fs::path file = errorPicture(folder, scene, technique);
             if (fs::exists(file))
-                pictures.push_back({file, scene + ": difference in visibility of " + technique +
-                                              " from its reference",
-                                    technique});
+                pictures.push_back(
+                    {file,
+                     scene + ": difference in visibility of " + technique + " from its reference",
+                     technique});
         }
         if (pictures.empty()) continue;
         if (!any) {
@@ -306,21 +306,21 @@ void addGrowthRun(records::HtmlPage& page, const fs::path& folder) {
     for (const Growth& growth : readGrowth(folder)) {
         const GrowthExponent& fit = growth.exponent;
         const bool fitted = fit.points > 0;
-        rows.push_back(
-            {growth.axis, growth.scene, growth.technique, growth.pass,
-             formatted("%.0f", growth.medians.front().first) + " to " +
-                 formatted("%.0f", growth.medians.back().first),
-             formatted("%.3g", growth.medians.front().second) + " to " +
-                 formatted("%.3g", growth.medians.back().second),
-             formatted("%.2f", fitted ? fit.exponent : NAN),
-             formatted("%.2f", fitted ? fit.exponent - fit.halfWidth95 : NAN) + " to " +
-                 formatted("%.2f", fitted ? fit.exponent + fit.halfWidth95 : NAN),
-             formatted("%.2f", fitted ? fit.residual : NAN)});
+        rows.push_back({growth.axis, growth.scene, growth.technique, growth.pass,
+                        formatted("%.0f", growth.medians.front().first) + " to " +
+                            formatted("%.0f", growth.medians.back().first),
+                        formatted("%.3g", growth.medians.front().second) + " to " +
+                            formatted("%.3g", growth.medians.back().second),
+                        formatted("%.2f", fitted ? fit.exponent : NAN),
+                        formatted("%.2f", fitted ? fit.exponent - fit.halfWidth95 : NAN) + " to " +
+                            formatted("%.2f", fitted ? fit.exponent + fit.halfWidth95 : NAN),
+                        formatted("%.2f", fitted ? fit.residual : NAN)});
     }
-    page.table(
-        {"grows", "scene", "technique", "pass", "over", "ms", "exponent", "95 %", "off by"}, rows,
+    page.table({"grows", "scene", "technique", "pass", "over", "ms", "exponent", "95 %", "off by"},
+               rows,
                "Exponents e of time = k x^e over medians, one thing growing and the rest as it is "
-               "(N = 1024, of lights 256; the scene's own triangles, the run's viewport), with the 95 % interval "
+               "(N = 1024, of lights 256; the scene's own triangles, the run's viewport), with the "
+               "95 % interval "
                "of the fit. Fixed costs hold an exponent down: growth is seen in the pass that "
                "does the work. (growth_fits.tsv)");
 }
@@ -424,7 +424,8 @@ std::vector<std::string> brokenTechniques(const SweepTable& table) {
         std::vector<double> nearReference;
         for (const SweepCell& cell : table.cells) {
             if (cell.technique != technique) continue;
-            const std::string where = " at " + std::to_string(cell.resolution) + " in " + cell.scene;
+            const std::string where =
+                " at " + std::to_string(cell.resolution) + " in " + cell.scene;
             if (why.empty() && cell.status.starts_with("failed")) why = where + ": " + cell.status;
             if (why.empty() && cell.measured() && !std::isfinite(cell.rmse))
                 why = where + ": visibility is no number";

@@ -17,10 +17,9 @@ SweptTechnique parseSweptTechnique(const std::string& text) {
         const std::size_t equals = setting.find('=');
         float value = 0;
         const char* const end = setting.data() + setting.size();
-        const auto [rest, error] =
-            equals == std::string::npos
-                ? std::from_chars_result{end, std::errc::invalid_argument}
-                : std::from_chars(setting.data() + equals + 1, end, value);
+        const auto [rest, error] = equals == std::string::npos
+                                       ? std::from_chars_result{end, std::errc::invalid_argument}
+                                       : std::from_chars(setting.data() + equals + 1, end, value);
         if (error != std::errc() || rest != end)
             throw std::invalid_argument("technique \"" + text + "\": \"" + setting +
                                         "\" must be PARAMETER=NUMBER");

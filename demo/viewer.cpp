@@ -52,8 +52,7 @@ ShadowRun::Settings Viewer::settingsOf(const ViewerState& state,
             .radiusUv = softness_.radiusUv,
             .resolution = resolution,
             .slope = slope_.slope,
-            .sizing = {.percentile = state.percentile,
-                       .crossFadeFrames = state.crossFadeFrames}};
+            .sizing = {.percentile = state.percentile, .crossFadeFrames = state.crossFadeFrames}};
 }
 
 void Viewer::show(const ViewerState& state) {
@@ -115,15 +114,13 @@ int Viewer::settle() {
 
 void Viewer::drawOther() {
     if (!otherFrame_)
-        otherFrame_ = std::make_unique<renderer::Renderer>(info_, frame_.scene(),
-                                                           frame_.widthPx(), frame_.heightPx(),
-                                                           frame_.shaders());
+        otherFrame_ = std::make_unique<renderer::Renderer>(info_, frame_.scene(), frame_.widthPx(),
+                                                           frame_.heightPx(), frame_.shaders());
     const bool sameSize =
         otherFrame_->widthPx() == frame_.widthPx() && otherFrame_->heightPx() == frame_.heightPx();
     if (otherShows_ == state_ && sameSize) return;  // a still view: it is often the slower frame
     otherFrame_->resize(frame_.widthPx(), frame_.heightPx());
-    if (otherFrame_->scene().source != state_.scene)
-        otherFrame_->setScene(frame_.scene());
+    if (otherFrame_->scene().source != state_.scene) otherFrame_->setScene(frame_.scene());
     otherFrame_->setCamera(frame_.scene().camera);
     otherFrame_->setSun(frame_.scene().sun);
     otherFrame_->setLightViews(frame_.lightViews());

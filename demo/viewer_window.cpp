@@ -73,10 +73,9 @@ class Mouse {
             // The path's share stays with the path.
             state.cameraYawDeg = std::remainder(
                 state.cameraYawDeg.value_or(own.yawDeg) - kDegreesPerPx * io.MouseDelta.x, 360.0F);
-            state.cameraPitchDeg =
-                std::clamp(state.cameraPitchDeg.value_or(own.pitchDeg) +
-                               kDegreesPerPx * io.MouseDelta.y,
-                           2.0F, 88.0F);
+            state.cameraPitchDeg = std::clamp(
+                state.cameraPitchDeg.value_or(own.pitchDeg) + kDegreesPerPx * io.MouseDelta.y, 2.0F,
+                88.0F);
         }
         if (overPicture && io.MouseWheel != 0)
             state.cameraDistanceM = zoomed(state.cameraDistanceM.value_or(own.distanceM),

@@ -22,12 +22,12 @@ namespace renderer {
 
 class CounterRing {
   public:
-    static constexpr std::size_t kFrames = 4;           ///< that may be under way
+    static constexpr std::size_t kFrames = 4;          ///< that may be under way
     static constexpr std::size_t kMostCounters = 128;  ///< of 32 bits
 
     struct Reading {
         std::array<std::uint32_t, kMostCounters> counters{};
-        int age = 0;                    ///< submissions since: 0 for the last
+        int age = 0;                   ///< submissions since: 0 for the last
         std::uint64_t submission = 0;  ///< counted from 0
     };
 

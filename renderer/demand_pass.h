@@ -39,15 +39,15 @@ struct DemandRule {
 /// (cpu_penumbra.h).
 bool hasOwnRadius(const ShaderLibrary& shaders, const Technique& technique);
 
-/// Programs with shared/pixel_demand.glsl: one for the techniques with the same radius everywhere and
-/// one for each that has its own, made when first used.
+/// Programs with shared/pixel_demand.glsl: one for the techniques with the same radius everywhere
+/// and one for each that has its own, made when first used.
 class PixelDemandPrograms {
   public:
     using Make = std::function<Program(const ShaderOptions&)>;
     /// Throws what `make` throws.
     PixelDemandPrograms(const ShaderLibrary& shaders, Make make);
-    /// Uses the one for a frame, with the frame's textures and the rule in place. Throws what `make`
-    /// throws.
+    /// Uses the one for a frame, with the frame's textures and the rule in place. Throws what
+    /// `make` throws.
     void use(const Renderer::Outputs& frame, const DemandRule& rule);
     /// Texture units that pixel_demand.glsl takes, from 0.
     static constexpr unsigned kTextures = 6;

@@ -23,8 +23,8 @@ class DepthCounter {
     /// its shader at the first call and throws std::runtime_error where that fails.
     const DepthHistogram& count(const ShaderLibrary& shaders, const Texture& map, int resolution);
 
-    /// Takes its shader from here, if it has been compiled; throws as count() does, and then it keeps
-    /// the one it has.
+    /// Takes its shader from here, if it has been compiled; throws as count() does, and then it
+    /// keeps the one it has.
     void reload(const ShaderLibrary& shaders);
 
     /// The next map has nothing to do with the last one: wait for it.

@@ -35,13 +35,14 @@ class DetailProbe {
     DetailProbe(const ShaderLibrary& shaders, const std::string& demandGlsl);
 
     /// Draws the next tile under the light of the frame that `frame` drew last, and asks that
-    /// frame's pixels. Nothing happens before its first frame. `view` is one of the frame's maps; with
-    /// several each needs a probe of its own.
+    /// frame's pixels. Nothing happens before its first frame. `view` is one of the frame's maps;
+    /// with several each needs a probe of its own.
     void submit(const Renderer& frame, const DemandRule& rule, std::size_t view = 0);
     /// Every tile at once, and waits for the answers: for a first frame or another scene.
     void submitAll(const Renderer& frame, const DemandRule& rule, std::size_t view = 0);
 
-    /// What the newest readings of all tiles ask for, at most kFineEdge; 0 for nothing. Never waits.
+    /// What the newest readings of all tiles ask for, at most kFineEdge; 0 for nothing. Never
+    /// waits.
     int detailTexels();
 
     /// Another scene: what the tiles said is forgotten.

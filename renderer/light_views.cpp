@@ -8,8 +8,8 @@
 namespace renderer {
 namespace {
 
-/// A pyramid from the lamp around a way that it looks. `served` is the tangent of half the angle that
-/// it is for; the map is wider by the reach, at most to 1.5 times as much.
+/// A pyramid from the lamp around a way that it looks. `served` is the tangent of half the angle
+/// that it is for; the map is wider by the reach, at most to 1.5 times as much.
 LightView pyramid(const Lamp& lamp, glm::dvec3 forward, double served, std::size_t light) {
     const glm::dvec3 level = std::abs(forward.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, level));
@@ -49,9 +49,9 @@ std::string validate(const Lamp& lamp) {
         return std::string("lamp: ") + field + " is " + std::to_string(value) + ", must be " + rule;
     };
     for (int axis = 0; axis < 3; ++axis)
-        for (const auto& [field, value] : {std::pair{"position", lamp.position[axis]},
-                                           std::pair{"target", lamp.target[axis]},
-                                           std::pair{"colour", lamp.colour[axis]}})
+        for (const auto& [field, value] :
+             {std::pair{"position", lamp.position[axis]}, std::pair{"target", lamp.target[axis]},
+              std::pair{"colour", lamp.colour[axis]}})
             if (!std::isfinite(value)) return wrong(field, value, "finite");
     if (!(lamp.nearM > 0)) return wrong("nearM", lamp.nearM, "above 0");
     if (!(lamp.farM > lamp.nearM) || !std::isfinite(lamp.farM))
@@ -133,9 +133,9 @@ std::vector<LightView> sunViews(const ShadowWindow& whole, const Bounds& casters
     std::vector<LightView> views;
     for (std::size_t i = 0; i + 1 < splits.size(); ++i) {
         LightView view;
-        view.window = narrowShadowWindow(whole, casters,
-                                         viewVolume(camera, aspect, splits[i], splits[i + 1]),
-                                         reachM, heldSteps[i]);
+        view.window =
+            narrowShadowWindow(whole, casters, viewVolume(camera, aspect, splits[i], splits[i + 1]),
+                               reachM, heldSteps[i]);
         if (i > 0) view.window.part.fromM = splits[i];
         if (i + 2 < splits.size()) view.window.part.toM = splits[i + 1];
         views.push_back(view);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The maps of a frame: which windows a light needs. The sun has one, or one for each cascade; a spot
-// one; a point lamp six, the faces of a cube. Each has its own size and radius, so to whoever chooses
-// sizes every one of them is a light.
+// The maps of a frame: which windows a light needs. The sun has one, or one for each cascade; a
+// spot one; a point lamp six, the faces of a cube. Each has its own size and radius, so to whoever
+// chooses sizes every one of them is a light.
 #pragma once
 
 #include <optional>
@@ -36,9 +36,9 @@ std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light);
 /// environments", VRCIA 2006): halfway between equal steps and equal ratios.
 std::vector<double> cascadeSplits(double nearM, double farM, int count);
 
-/// The windows of the sun's cascades, or the one of a sun without. All of them have the depth of the
-/// whole window, so that a bias or an exponent means the same in each. `heldSteps` is of the frame
-/// before and is resized to the number of cascades.
+/// The windows of the sun's cascades, or the one of a sun without. All of them have the depth of
+/// the whole window, so that a bias or an exponent means the same in each. `heldSteps` is of the
+/// frame before and is resized to the number of cascades.
 std::vector<LightView> sunViews(const ShadowWindow& whole, const Bounds& casters,
                                 const OrbitCamera& camera, double aspect, int cascades,
                                 double reachM, std::vector<std::optional<int>>& heldSteps);

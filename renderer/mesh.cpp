@@ -60,7 +60,9 @@ Mesh split(const Mesh& mesh, int parts) {
         const Vertex& c = mesh.vertices[mesh.indices[t + 2]];
         const auto base = static_cast<std::uint32_t>(fine.vertices.size());
         // Row i runs across the triangle, i + 1 vertices from side ab to side ac.
-        const auto at = [&](std::uint32_t i, std::uint32_t j) { return base + i * (i + 1) / 2 + j; };
+        const auto at = [&](std::uint32_t i, std::uint32_t j) {
+            return base + i * (i + 1) / 2 + j;
+        };
         for (std::uint32_t i = 0; i <= n; ++i)
             for (std::uint32_t j = 0; j <= i; ++j) {
                 const float u = static_cast<float>(i - j) / static_cast<float>(n);

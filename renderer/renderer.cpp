@@ -155,7 +155,10 @@ void FrameSettings::validate(const GlInfo& info) const {
 
 Renderer::Renderer(const GlInfo& info, Scene scene, int widthPx, int heightPx,
                    const ShaderLibrary& shaders)
-    : info_(info), shaders_(shaders), lookupPrograms_(2 * techniques().size()), mapFilter_(shaders) {
+    : info_(info),
+      shaders_(shaders),
+      lookupPrograms_(2 * techniques().size()),
+      mapFilter_(shaders) {
     reload(shaders);
 
     viewBlock_ = makeUniformBlock(view_, "view constants");
@@ -220,8 +223,7 @@ void Renderer::setReach(double reachM) {
 void Renderer::setLightViews(std::span<const LightView> views) {
     if (views.size() != fitted_.size())
         throw std::invalid_argument("light views: " + std::to_string(views.size()) +
-                                    " were given, the scene has " +
-                                    std::to_string(fitted_.size()));
+                                    " were given, the scene has " + std::to_string(fitted_.size()));
     fitted_.assign(views.begin(), views.end());
     views_ = fitted_;
 }
@@ -384,10 +386,9 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     const float verticalField = glm::radians(camera.verticalFieldDeg);
     const float pixel = 2 * std::tan(verticalField / 2) / height;
 
-    view_.clipFromEyeRelative =
-        glm::perspectiveRH_ZO(verticalField, width / height, nearestSeenM(camera),
-                              farthestSeenM(camera)) *
-        glm::lookAtRH(glm::vec3(0), forward, glm::vec3(0, 1, 0));
+    view_.clipFromEyeRelative = glm::perspectiveRH_ZO(verticalField, width / height,
+                                                      nearestSeenM(camera), farthestSeenM(camera)) *
+                                glm::lookAtRH(glm::vec3(0), forward, glm::vec3(0, 1, 0));
     view_.eye = glm::vec4(eye, 0);
     view_.pixelRight = glm::vec4(right * pixel, 0);
     view_.pixelUp = glm::vec4(up * pixel, 0);
@@ -401,8 +402,7 @@ void Renderer::updateConstants(const FrameSettings& settings) {
     bindConstants();
 }
 
-void Renderer::setShadowConstants(const FrameSettings& settings, std::size_t view,
-                                  int resolution) {
+void Renderer::setShadowConstants(const FrameSettings& settings, std::size_t view, int resolution) {
     const glm::vec3 eye(view_.eye);
     const MapSettings map = mapSettings(settings, view);
     const Technique& technique =
@@ -414,9 +414,8 @@ void Renderer::setShadowConstants(const FrameSettings& settings, std::size_t vie
     shadow.shadowFromEyeRelative =
         glm::mat4(window.shadowFromWorld * glm::translate(glm::dmat4(1), glm::dvec3(eye)));
     shadow.shadowFromWorld = glm::mat4(window.shadowFromWorld);
-    shadow.towardsLight = window.lampAt
-                              ? glm::vec4(glm::vec3(*window.lampAt - glm::dvec3(eye)), 1)
-                              : glm::vec4(window.towardsLight, 0);
+    shadow.towardsLight = window.lampAt ? glm::vec4(glm::vec3(*window.lampAt - glm::dvec3(eye)), 1)
+                                        : glm::vec4(window.towardsLight, 0);
     shadow.map = {static_cast<float>(resolution), 1 / static_cast<float>(resolution),
                   1 / static_cast<float>(maps_[view].edge),
                   static_cast<float>(window.lampAt ? window.depthRangeM / window.nearM : 0)};
@@ -440,7 +439,8 @@ MapSettings Renderer::mapSettings(const FrameSettings& settings, std::size_t vie
     const double radius = own.light > 0 ? own.softnessUv
                                         : static_cast<double>(settings.radiusUv) *
                                               fitted_.front().window.extentM / own.window.extentM;
-    return {.resolution = settings.resolution, .radiusUv = static_cast<float>(std::min(radius, 1.0))};
+    return {.resolution = settings.resolution,
+            .radiusUv = static_cast<float>(std::min(radius, 1.0))};
 }
 
 void Renderer::reload(const ShaderLibrary& shaders) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A frame: prepass (visible surfaces), then for every map of every light (light_views.h) depth pass
-// (the map at N x N), prefilter of that map where the technique has one, and lookup pass (visibility
-// of the pixels that the map serves, into the light's own target); lit pass. It renders whatever N,
-// radius and technique it is given and knows nothing of how they were chosen; demand_pass.h counts
-// what a chooser needs to know of the frame.
+// (the map at N x N), prefilter of that map where the technique has one, and lookup pass
+// (visibility of the pixels that the map serves, into the light's own target); lit pass. It renders
+// whatever N, radius and technique it is given and knows nothing of how they were chosen;
+// demand_pass.h counts what a chooser needs to know of the frame.
 //
 //   renderer::HeadlessContext context;
 //   renderer::Renderer renderer(context.info(), renderer::makeScene("yard"), 1280, 720);
@@ -49,13 +49,13 @@ struct FrameSettings {
     float minRadiusUv = 0;        ///< least radius where a texel is larger than a pixel, 0 .. 1
     bool lit = true;              ///< false leaves the lit pass out
     int samplesPerPixelEdge = 1;  ///< viewport pixels along a screen pixel's edge, 1 .. 16
-    /// While a change of N is faded, the visibility is fadeWeight times this map's and the rest that
-    /// of a map with N = fadeFrom, drawn before it. 1: no fade, fadeFrom is not looked at.
+    /// While a change of N is faded, the visibility is fadeWeight times this map's and the rest
+    /// that of a map with N = fadeFrom, drawn before it. 1: no fade, fadeFrom is not looked at.
     float fadeWeight = 1;
     int fadeFrom = 1024;
-    /// One for each of lightViews(), in place of size, radii and fade above; empty: all maps have the
-    /// same N, and only the sun's first has a least radius and a fade. Its blur in metres is that of
-    /// all cascades; a lamp's is its softness.
+    /// One for each of lightViews(), in place of size, radii and fade above; empty: all maps have
+    /// the same N, and only the sun's first has a least radius and a fade. Its blur in metres is
+    /// that of all cascades; a lamp's is its softness.
     std::vector<MapSettings> maps = {};
 
     /// Throws std::invalid_argument that names the field, its value and its range.
@@ -94,9 +94,9 @@ class Renderer {
     /// Those of another frame of the same view, to compare the two; until camera, lights, size, fit
     /// or reach change.
     void setLightViews(std::span<const LightView> views);
-    /// From now on every map's texture has at least this edge, and a smaller N takes a sub-rectangle
-    /// of it; 0 (the default) makes the texture anew whenever N changes, exactly as large as the
-    /// map.
+    /// From now on every map's texture has at least this edge, and a smaller N takes a
+    /// sub-rectangle of it; 0 (the default) makes the texture anew whenever N changes, exactly as
+    /// large as the map.
     void reserveMap(int edge);
 
     const Scene& scene() const { return scene_; }
@@ -130,10 +130,11 @@ class Renderer {
     /// the shadow block that is bound, which is of a view or of a part of it.
     void drawCasters(const Framebuffer& target, int edge, std::size_t view = 0) const;
 
-    ByteImage readLit();                                ///< sRGB codes, 3 channels
-    FloatImage readVisibility(std::size_t light = 0);   ///< 1 lit
-    FloatImage readShadowMap(std::size_t view = 0);     ///< N x N linear depth
-    /// What the lookup read, of the last of lightViews(); empty after a technique without prefilter.
+    ByteImage readLit();                               ///< sRGB codes, 3 channels
+    FloatImage readVisibility(std::size_t light = 0);  ///< 1 lit
+    FloatImage readShadowMap(std::size_t view = 0);    ///< N x N linear depth
+    /// What the lookup read, of the last of lightViews(); empty after a technique without
+    /// prefilter.
     FilteredTexels readFilteredMap();
     FloatImage readPositions();  ///< 4 channels: relative to the eye; w 0 is sky
     FloatImage readPlanes();     ///< 4 channels: unit normal of the triangle
@@ -213,7 +214,7 @@ class Renderer {
     };
     std::vector<Map> maps_;  // one for each view
     MapFilter mapFilter_;
-    int filterSpare_ = 0;  // see MapFilter::run
+    int filterSpare_ = 0;                                       // see MapFilter::run
     std::vector<std::unique_ptr<DepthCounter>> depthCounters_;  // one for each view that has layers
     Texture positions_, planes_, normals_, albedos_, surfaceDepth_, lit_;
     Texture lampVisibilities_;           // a layer for each lamp

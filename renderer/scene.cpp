@@ -63,18 +63,17 @@ std::size_t optionValue(std::string_view source, std::string_view option, std::s
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
     if (error != std::errc() || end != number.data() + number.size() || count < least ||
         count > most)
-        throw std::invalid_argument("scene \"" + std::string(source) + "\": " +
-                                    std::string(option.substr(0, equals)) + " is \"" +
-                                    std::string(number) + "\", must be a whole number from " +
-                                    range);
+        throw std::invalid_argument(
+            "scene \"" + std::string(source) + "\": " + std::string(option.substr(0, equals)) +
+            " is \"" + std::string(number) + "\", must be a whole number from " + range);
     return count;
 }
 
 void splitCasters(Scene& scene, std::string_view option) {
     const std::size_t own = casterTriangles(scene);
-    const std::size_t asked = optionValue(scene.source, option, own, kMostTriangles,
-                                          std::to_string(own) + ", the scene's own, to " +
-                                              std::to_string(kMostTriangles));
+    const std::size_t asked = optionValue(
+        scene.source, option, own, kMostTriangles,
+        std::to_string(own) + ", the scene's own, to " + std::to_string(kMostTriangles));
     const double ratio = static_cast<double>(asked) / static_cast<double>(own);
     const int parts = static_cast<int>(std::lround(std::sqrt(ratio)));
     for (SceneObject& object : scene.objects)
@@ -83,8 +82,8 @@ void splitCasters(Scene& scene, std::string_view option) {
 }
 
 void setCascades(Scene& scene, std::string_view option) {
-    scene.cascades = static_cast<int>(
-        optionValue(scene.source, option, 1, kMostCascades, "1 to " + std::to_string(kMostCascades)));
+    scene.cascades = static_cast<int>(optionValue(scene.source, option, 1, kMostCascades,
+                                                  "1 to " + std::to_string(kMostCascades)));
     scene.name += "_" + std::to_string(scene.cascades) + "_cascades";
 }
 

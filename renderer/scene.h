@@ -93,9 +93,9 @@ struct Scene {
     CameraPath cameraPath;
     Sun sun;
     SunPath sunPath;
-    int cascades = 1;         ///< maps of the sun, each for a stretch of the view, 1 .. kMostCascades
+    int cascades = 1;  ///< maps of the sun, each for a stretch of the view, 1 .. kMostCascades
     std::vector<Lamp> lamps;  ///< at most kMostLamps
-    Bounds casters;  ///< what throws shadows; the light's window is fitted to it
+    Bounds casters;           ///< what throws shadows; the light's window is fitted to it
     double softnessM =
         0.05;          ///< radius of the shadow's blur, in metres across the light's direction
     float hazeM = 60;  ///< distance at which haze takes half of the light
@@ -120,10 +120,10 @@ std::span<const SceneEntry> builtInScenes();
 /// at. Throws std::invalid_argument that lists the known names.
 const SceneEntry& findScene(std::string_view source);
 
-/// A built-in scene by its name, with options after colons: NAME:triangles=COUNT is the same picture
-/// with its casters split into about as many triangles, from their own number to 4,000,000;
-/// NAME:cascades=COUNT has as many maps of the sun. Throws std::invalid_argument for an unknown name
-/// or option and a count out of range.
+/// A built-in scene by its name, with options after colons: NAME:triangles=COUNT is the same
+/// picture with its casters split into about as many triangles, from their own number to 4,000,000;
+/// NAME:cascades=COUNT has as many maps of the sun. Throws std::invalid_argument for an unknown
+/// name or option and a count out of range.
 Scene makeScene(std::string_view source);
 
 }  // namespace renderer

@@ -59,8 +59,9 @@ Mesh meshOf(const std::filesystem::path& file, const aiMesh& own) {
         const glm::vec3 normal =
             own.HasNormals() ? glm::normalize(toGlm(own.mNormals[i])) : glm::vec3(0);
         // Corners of triangles without an area have none.
-        mesh.vertices.push_back(
-            {position, isFinite(normal) && glm::length(normal) > 0.5F ? normal : glm::vec3(0, 1, 0)});
+        mesh.vertices.push_back({position, isFinite(normal) && glm::length(normal) > 0.5F
+                                               ? normal
+                                               : glm::vec3(0, 1, 0)});
     }
     for (unsigned i = 0; i < own.mNumFaces; ++i) {
         const aiFace& face = own.mFaces[i];

@@ -14,8 +14,9 @@ namespace renderer {
 /// The longest edge of a model's bounds as it stands in the scene, m: files do not say their unit.
 inline constexpr float kModelSizeM = 3;
 
-/// Throws std::runtime_error that names the file and what is wrong with it: missing, not a file, not
-/// readable as a model, without triangles, or with corners that are no numbers or all in one place.
+/// Throws std::runtime_error that names the file and what is wrong with it: missing, not a file,
+/// not readable as a model, without triangles, or with corners that are no numbers or all in one
+/// place.
 Scene loadScene(const std::filesystem::path& file);
 
 /// Whether a source has a dot or a slash and is no built-in scene's name.

@@ -126,8 +126,7 @@ ShadowWindow narrowShadowWindow(const ShadowWindow& whole, const Bounds& casters
     if (!(low.x <= high.x && low.y <= high.y)) return whole;  // nothing to see: keep the step
 
     const double seenM = std::max(high.x - low.x, high.y - low.y) * whole.extentM + 2 * reachM;
-    int step = static_cast<int>(
-        std::ceil(kStepsPerOctave * std::log2(seenM / (1 - kSnapRoom))));
+    int step = static_cast<int>(std::ceil(kStepsPerOctave * std::log2(seenM / (1 - kSnapRoom))));
     // Held while it is large enough and the next smaller one would be nearly too small.
     if (heldStep && step == *heldStep - 1) step = *heldStep;
     if (extentOf(heldStep ? step : step + 1) >= whole.extentM) {

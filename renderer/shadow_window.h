@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The part of the world that a light's map covers: a square across the light's direction, fitted to
 // the casters, and narrowed to what of their shadows can be seen. Receivers outside it are lit.
-// Depth is linear along the light, 0 at the nearest caster, 1 at the farthest caster or ground point
-// under the casters' square; what lies beyond is clamped there. Narrowing leaves the depth alone, so
-// that what counts in depth (bias, exponents, a penumbra's width) does not change as the camera
-// moves.
+// Depth is linear along the light, 0 at the nearest caster, 1 at the farthest caster or ground
+// point under the casters' square; what lies beyond is clamped there. Narrowing leaves the depth
+// alone, so that what counts in depth (bias, exponents, a penumbra's width) does not change as the
+// camera moves.
 //
 // A narrowed window follows the camera in steps: extents are quarter octaves, held until two steps
 // fewer are enough, and render() moves the square by whole texels, so that under a still light the
@@ -30,13 +30,13 @@ struct ViewPart {
 inline constexpr ViewPart kAllReceivers{};
 
 struct ShadowWindow {
-    glm::dmat4 shadowFromWorld{1};  ///< to (u, v, depth, 1)
-    double extentM = 1;             ///< edge of the square, m: r_uv = softness in m / extentM
-    double depthRangeM = 1;         ///< what depth 0..1 spans, m
-    glm::vec3 towardsLight{0, 1, 0};        ///< of the sun
-    std::optional<glm::dvec3> lampAt = {};  ///< of a lamp; then shadowFromWorld is a projection, and
-                                            ///< extentM the map's width 1 m away
-    double nearM = 0;                       ///< of a lamp: where depth 0 is, along the map's axis
+    glm::dmat4 shadowFromWorld{1};    ///< to (u, v, depth, 1)
+    double extentM = 1;               ///< edge of the square, m: r_uv = softness in m / extentM
+    double depthRangeM = 1;           ///< what depth 0..1 spans, m
+    glm::vec3 towardsLight{0, 1, 0};  ///< of the sun
+    std::optional<glm::dvec3> lampAt = {};  ///< of a lamp; then shadowFromWorld is a projection,
+                                            ///< and extentM the map's width 1 m away
+    double nearM = 0;  ///< of a lamp: where depth 0 is, along the map's axis
     ViewPart part = {};
     bool narrowed = false;  ///< to what is seen: the square moves with the camera
 };
@@ -48,8 +48,8 @@ ShadowWindow fitShadowWindow(const Bounds& casters, const Sun& sun);
 /// Of the casters' window, the part that visible receivers in their shadow can lie in.
 /// `seen` is what the camera sees; `reachM` how far across the light a kernel reads beyond the
 /// receiver. `heldStep` is the extent of the frame before, as 4 log2 m, absent where that one was
-/// not narrowed, and is replaced by this one's. The whole window comes back where nothing that can be
-/// in shadow is seen, or where the narrowed one would not be smaller.
+/// not narrowed, and is replaced by this one's. The whole window comes back where nothing that can
+/// be in shadow is seen, or where the narrowed one would not be smaller.
 ShadowWindow narrowShadowWindow(const ShadowWindow& whole, const Bounds& casters,
                                 const ConvexBody& seen, double reachM,
                                 std::optional<int>& heldStep);

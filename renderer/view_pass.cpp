@@ -43,11 +43,10 @@ bool compares(View view) {
 }
 
 ViewPass::ViewPass(const ShaderLibrary& shaders, const std::string& demandGlsl)
-    : programs_(shaders,
-                [library = withDemand(shaders, demandGlsl)](const ShaderOptions& options) {
-                    return makeProgram(library, "passes/fullscreen.vert", "passes/view.frag",
-                                       withViews(options));
-                }) {
+    : programs_(shaders, [library = withDemand(shaders, demandGlsl)](const ShaderOptions& options) {
+          return makeProgram(library, "passes/fullscreen.vert", "passes/view.frag",
+                             withViews(options));
+      }) {
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
     noGeometry_ = VertexArray(name);

@@ -42,13 +42,11 @@ std::vector<glm::dvec3> cornersOf(const ConvexBody& body) {
                 const glm::dvec3 c(body[k]);
                 const glm::dvec3 ab = glm::cross(a, b);
                 const double volume = glm::dot(ab, c);
-                if (std::abs(volume) <
-                    1e-9 * glm::length(a) * glm::length(b) * glm::length(c))
+                if (std::abs(volume) < 1e-9 * glm::length(a) * glm::length(b) * glm::length(c))
                     continue;  // nearly parallel: other planes bound the body there
-                const glm::dvec3 corner =
-                    -(body[i].w * glm::cross(b, c) + body[j].w * glm::cross(c, a) +
-                      body[k].w * ab) /
-                    volume;
+                const glm::dvec3 corner = -(body[i].w * glm::cross(b, c) +
+                                            body[j].w * glm::cross(c, a) + body[k].w * ab) /
+                                          volume;
                 const double size = 1 + glm::length(corner);
                 if (std::all_of(body.begin(), body.end(), [&](const glm::dvec4& plane) {
                         const glm::dvec3 normal(plane);

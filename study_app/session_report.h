@@ -17,8 +17,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows);
 /// simulated observer also the c that it really has. `participant` may be null.
 std::string thresholdTable(const Session& session, const SimulatedParticipant* participant);
 
-/// "72 of 72 trials, 8 of them catch trials (1 failed); c at criterion F* = 0.6465, 2afc, srgb, beta
-/// 3.5": everything without which c means nothing.
+/// "72 of 72 trials, 8 of them catch trials (1 failed); c at criterion F* = 0.6465, 2afc, srgb,
+/// beta 3.5": everything without which c means nothing.
 std::string contextLine(const Session& session);
 
 /// One row per condition over the participants of a simulated study: geometric mean of the

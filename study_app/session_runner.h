@@ -93,9 +93,9 @@ class SessionRunner {
     /// The trial that comes next or is on screen, and its codes.
     records::Trial trial() const;
     const TrialImages& images();
-    /// The same before its stimulus is due on screen. Returns false where a picture of it is missing
-    /// or another one than the session began with: problem() says which; nothing is recorded, and
-    /// begin() tries again.
+    /// The same before its stimulus is due on screen. Returns false where a picture of it is
+    /// missing or another one than the session began with: problem() says which; nothing is
+    /// recorded, and begin() tries again.
     bool prepareImages();
 
     bool lastRight() const { return lastRight_; }      ///< of the answer that feedback is about

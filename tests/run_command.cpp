@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "tests/project_folders.h"
+
 namespace tests {
 namespace {
 
@@ -33,7 +35,7 @@ std::string contents(std::FILE* file) {
 }  // namespace
 
 CommandResult runProgram(const std::string& program, const std::vector<std::string>& arguments) {
-    const std::string path = std::string(STAIRWELL_BIN_DIR) + "/" + program;
+    const std::string path = (programFolder() / program).string();
     std::vector<char*> argv{const_cast<char*>(path.c_str())};
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));

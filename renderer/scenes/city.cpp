@@ -24,8 +24,8 @@ Mesh parkingDeck(glm::vec3 middle, float half, int storeys) {
     Mesh mesh;
     for (int storey = 1; storey <= storeys; ++storey) {
         const float top = static_cast<float>(storey) * kStoreyM;
-        mesh.append(box(middle + glm::vec3(-half, top - 0.4F, -half),
-                        middle + glm::vec3(half, top, half)));
+        mesh.append(
+            box(middle + glm::vec3(-half, top - 0.4F, -half), middle + glm::vec3(half, top, half)));
         for (const float x : {-0.8F, 0.8F})
             for (const float z : {-0.8F, 0.8F}) {
                 const glm::vec3 foot = middle + glm::vec3(x * half, top - kStoreyM, z * half);
@@ -61,7 +61,8 @@ Scene city() {
     for (int i = 0; i < 5; ++i) {
         const float z = (static_cast<float>(i) - 2) * kPlotM + 0.2F * kPlotM;
         const float height = (2.0F + static_cast<float>(upTo(2))) * kStoreyM;
-        bridges.append(box({-2.4F * kPlotM, height, z - 1.1F}, {2.4F * kPlotM, height + 0.5F, z + 1.1F}));
+        bridges.append(
+            box({-2.4F * kPlotM, height, z - 1.1F}, {2.4F * kPlotM, height + 0.5F, z + 1.1F}));
     }
     scene.objects.push_back(
         {"towers", std::move(towers), {.albedo = {0.52F, 0.44F, 0.36F}, .gloss = 0.05F}});

@@ -38,7 +38,8 @@ Mesh leaves(glm::vec3 centre, glm::vec3 radii, int count, float length, std::mt1
         const glm::vec3 normal = glm::cross(along, across);
         const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
         for (const glm::vec2 corner : {glm::vec2(-0.5F, 0), {0, -0.22F}, {0.5F, 0}, {0, 0.22F}})
-            mesh.vertices.push_back({place + size * (corner.x * along + corner.y * across), normal});
+            mesh.vertices.push_back(
+                {place + size * (corner.x * along + corner.y * across), normal});
         for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(base + k);
     }
     return mesh;
@@ -76,8 +77,8 @@ Scene foliage() {
         const float angle = between(random, 0, glm::two_pi<float>());
         const glm::vec3 start = foot + glm::vec3(0, height, 0);
         wood.append(branch(start,
-                           start + between(random, 0.6F, 0.95F) * glm::vec3(std::cos(angle), 0.6F,
-                                                                          std::sin(angle)),
+                           start + between(random, 0.6F, 0.95F) *
+                                       glm::vec3(std::cos(angle), 0.6F, std::sin(angle)),
                            0.035F));
     }
     scene.objects.push_back({"wood", std::move(wood), {.albedo = {0.26F, 0.17F, 0.10F}}});

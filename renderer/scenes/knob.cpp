@@ -11,8 +11,8 @@ namespace {
 void addArc(std::vector<glm::vec2>& profile, glm::vec2 centre, float radius, float fromDeg,
             float toDeg, int steps) {
     for (int i = 0; i <= steps; ++i) {
-        const float angle = glm::radians(
-            fromDeg + (toDeg - fromDeg) * static_cast<float>(i) / static_cast<float>(steps));
+        const float angle = glm::radians(fromDeg + (toDeg - fromDeg) * static_cast<float>(i) /
+                                                       static_cast<float>(steps));
         profile.push_back(centre + radius * glm::vec2(std::cos(angle), std::sin(angle)));
     }
 }

@@ -3,14 +3,14 @@
 
 namespace renderer {
 
-/// Dusk: a sun that hardly shines, a point lamp among posts, which throw shadows to all sides, and a
-/// spot on a sphere.
+/// Dusk: a sun that hardly shines, a point lamp among posts, which throw shadows to all sides, and
+/// a spot on a sphere.
 Scene lamps() {
     Scene scene;
     scene.objects.push_back(paving());
     Mesh posts;
-    for (const glm::vec2 foot : {glm::vec2(-1.6F, -0.9F), {-0.2F, -1.3F}, {-1.9F, 0.6F},
-                                 {-0.5F, 0.9F}, {0.5F, -0.2F}})
+    for (const glm::vec2 foot :
+         {glm::vec2(-1.6F, -0.9F), {-0.2F, -1.3F}, {-1.9F, 0.6F}, {-0.5F, 0.9F}, {0.5F, -0.2F}})
         posts.append(cylinder({foot.x, 0, foot.y}, 0.08F, 0.9F, 32));
     scene.objects.push_back({"posts", std::move(posts), {.albedo = {0.60F, 0.52F, 0.42F}}});
     scene.objects.push_back({"roof",

@@ -25,11 +25,11 @@ Scene overlappingSpheres() {
     };
     scene.objects.push_back(paving());
     for (const Ball& ball : kBalls)
-        scene.objects.push_back(
-            {"sphere",
-             sphere(glm::vec3(ball.shadow.x, 0, ball.shadow.y) + towards * (ball.height / towards.y),
-                    ball.radius, 72, 36),
-             {.albedo = ball.albedo, .gloss = 0.4F}});
+        scene.objects.push_back({"sphere",
+                                 sphere(glm::vec3(ball.shadow.x, 0, ball.shadow.y) +
+                                            towards * (ball.height / towards.y),
+                                        ball.radius, 72, 36),
+                                 {.albedo = ball.albedo, .gloss = 0.4F}});
     scene.camera = {.target = {0.35F, 1.35F, -0.4F},
                     .yawDeg = -24,
                     .pitchDeg = 27,

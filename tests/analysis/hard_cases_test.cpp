@@ -173,11 +173,14 @@ TEST(HardCases, GiveTheSameBitsWhateverTheNumberOfThreads) {
     EXPECT_EQ(one.bootstrap->headline->high, four.bootstrap->headline->high);
 }
 
-// A shaky observer's few answers may curve a condition's likelihood upwards where its search begins.
+// A shaky observer's few answers may curve a condition's likelihood upwards where its search
+// begins.
 TEST(HardCases, AFewAnswersOfOneObserverHaveALikelihood) {
-    const tests::StudyPlan plan{
-        .observers = 1, .groups = {{}, {.pattern = records::Pattern::step}}, .sizes = {10, 20},
-        .trials = 15, .lapse = 0.1};
+    const tests::StudyPlan plan{.observers = 1,
+                                .groups = {{}, {.pattern = records::Pattern::step}},
+                                .sizes = {10, 20},
+                                .trials = 15,
+                                .lapse = 0.1};
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
         for (const std::string& notice : analyseSlope(tests::simulateStudy(plan, seed)).notices)
             EXPECT_THAT(notice, Not(HasSubstr("nan"))) << "seed " << seed;

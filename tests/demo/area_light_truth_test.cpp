@@ -92,8 +92,8 @@ TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
                 if (!isDisc) {
                     // The cone that touches the ball, cut by the plane through receiver and edge.
                     const double sine = kRadius / glm::distance(middle, place);
-                    const glm::dvec3 across = glm::normalize(glm::dvec3(
-                        0, place.z - tests::kPlateHalfWidth, tests::kPlateHeight));
+                    const glm::dvec3 across = glm::normalize(
+                        glm::dvec3(0, place.z - tests::kPlateHalfWidth, tests::kPlateHeight));
                     const double off = glm::dot(across, glm::normalize(middle - place));
                     cut = std::tan(std::asin(off)) / std::tan(std::asin(sine));
                 }

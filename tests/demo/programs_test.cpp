@@ -13,6 +13,7 @@
 #include "records/whole_file.h"
 #include "renderer/scene.h"
 #include "renderer/technique.h"
+#include "tests/project_folders.h"
 #include "tests/run_command.h"
 #include "tests/temporary_folder.h"
 
@@ -112,7 +113,7 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
 
 TEST(ShadowDemo, StopsAtTheStartWhereAShaderOfTheFolderDoesNotCompile) {
     const tests::TemporaryFolder folder;
-    std::filesystem::copy(STAIRWELL_SOURCE_DIR "/renderer/shaders", folder.path(),
+    std::filesystem::copy(tests::sourceFolder() / "renderer/shaders", folder.path(),
                           std::filesystem::copy_options::recursive);
     const std::vector<std::string> arguments = smallFrame({"--shaders", folder.path().string()});
     EXPECT_EQ(tests::runProgram("shadow_demo", arguments).exitCode, 0);
@@ -150,9 +151,10 @@ TEST(ShadowDemo, RunsInAWindow) {
     const std::string log = (folder.path() / "log").string();
     ::setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
     const auto shown = [&](const std::string& options) {
-        const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " STAIRWELL_BIN_DIR
-                                    "/shadow_demo --frames 3 --width 96 --height 54 --stats " +
-                                    json + " --screenshot " + png + options + " > " + log + " 2>&1";
+        const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " +
+                                    (tests::programFolder() / "shadow_demo").string() +
+                                    " --frames 3 --width 96 --height 54 --stats " + json +
+                                    " --screenshot " + png + options + " > " + log + " 2>&1";
         const int status = std::system(command.c_str());
         EXPECT_EQ(status, 0) << records::readWholeFile(log);
     };

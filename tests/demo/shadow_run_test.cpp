@@ -16,6 +16,7 @@
 #include "demo/loaded_slope.h"
 #include "renderer/scene.h"
 #include "tests/headless_gl.h"
+#include "tests/project_folders.h"
 #include "tests/thrown_message.h"
 
 namespace {
@@ -250,7 +251,7 @@ TEST(ShadowRun, PictureIsAntialiasedAndLeavesTheFrameAsItWas) {
 }
 
 std::string withoutSpace(const std::string& file) {
-    std::ifstream in(std::string(STAIRWELL_SOURCE_DIR) + "/" + file);
+    std::ifstream in(tests::sourceFolder() / file);
     std::string text;
     for (char letter; in.get(letter);)
         if (std::isspace(static_cast<unsigned char>(letter)) == 0) text += letter;

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <string>
 
+#include "tests/project_folders.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,7 +49,7 @@ class RevisionScript : public testing::Test {
     std::string revision() {
         command(std::string(STAIRWELL_CMAKE) + " -DGIT=" + STAIRWELL_GIT +
                 " -DSOURCE=" + source_.string() + " -DHEADER=" + header().string() + " -P " +
-                STAIRWELL_SOURCE_DIR + "/program/write_revision.cmake");
+                (tests::sourceFolder() / "program/write_revision.cmake").string());
         std::ifstream in(header());
         return {std::istreambuf_iterator<char>(in), {}};
     }

@@ -170,10 +170,10 @@ Wide sampledVariance(const Situation& s, Wide depth) {
             nearestFour(middle + x, middle + y, [&](int i, int j, Wide weight) {
                 add(all, underTheBox(s, reach, i, j), weight);
             });
-            const Wide there = std::min(depth + (x * s.receiver.depthGradient.x +
-                                                 y * s.receiver.depthGradient.y) /
-                                                    s.map.edge,
-                                        static_cast<Wide>(1));
+            const Wide there =
+                std::min(depth + (x * s.receiver.depthGradient.x + y * s.receiver.depthGradient.y) /
+                                     s.map.edge,
+                         static_cast<Wide>(1));
             sum += chebyshev(all.mean(z), std::max(all.variance(z), s.parameter("least_variance")),
                              there);
         }

@@ -136,10 +136,10 @@ FloatImage cpuImage(renderer::Renderer& frame, const Technique& technique,
 // Same map, same constants, same receivers: what differs is the rounding of the lookup alone. A
 // compare that falls the other way moves one texel's weight, at most 1 / (pi (r/a)^2) of a disc, a
 // tap's (1/16 with the fewest taps of a default) or a whole texel for a hard shadow; the
-// reconstructions of filtered maps are steep at depths that are nearly the mean, and steps where the
-// kernel finds one depth. MSM's equations are so badly conditioned that single precision is off by
-// up to .0099 (docs/results/technique-errors.md), here on either side: many pixels of a terrain at
-// grazing light are beyond .001.
+// reconstructions of filtered maps are steep at depths that are nearly the mean, and steps where
+// the kernel finds one depth. MSM's equations are so badly conditioned that single precision is off
+// by up to .0099 (docs/results/technique-errors.md), here on either side: many pixels of a terrain
+// at grazing light are beyond .001.
 TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
     bool first = true;
     for (const auto& entry : renderer::builtInScenes()) {
@@ -167,16 +167,18 @@ TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
                     cpuImage(frame, technique, mapOf(depths, frame.readFilteredMap()));
                 const double texels = radius * n;
                 const double kernelTexel = 1.0 / (kPi * texels * texels + 1e-9);
-                const double oneTexel =
-                    !technique.soft || filtered   ? 1.0
-                    : technique.name == "pcf_disc" ? std::min(1.0, kernelTexel)
-                                                   : std::clamp(kernelTexel, 1.0 / 16, 1.0);
+                const double oneTexel = !technique.soft || filtered ? 1.0
+                                        : technique.name == "pcf_disc"
+                                            ? std::min(1.0, kernelTexel)
+                                            : std::clamp(kernelTexel, 1.0 / 16, 1.0);
                 const bool moments = technique.name.starts_with("msm");
                 tests::expectImagesAgree(std::string(entry.name) + "_" +
                                              std::string(technique.name) + "_" + std::to_string(n),
                                          gpu, cpu,
                                          {.most = 2 * oneTexel + 1e-4,
-                                          .often = moments ? 2 * .0099 : filtered ? 1e-3 : 1e-4,
+                                          .often = moments    ? 2 * .0099
+                                                   : filtered ? 1e-3
+                                                              : 1e-4,
                                           .shareBeyondOften = 0.002});
             }
     }
@@ -609,10 +611,9 @@ TEST(Frame, SaysWhichTextureTheDriverRefusesAndGoesOn) {
         return "nothing was thrown";
     };
     const int wider = 2 * gl().maxResolution;
-    EXPECT_THAT(message([] {
-                    renderer::makeTextureArray(GL_RGBA32F, 8192, 8192, 2048, 1, "stack");
-                }),
-                HasSubstr("texture \"stack\" of 8192 x 8192 texels: the driver refuses it"));
+    EXPECT_THAT(
+        message([] { renderer::makeTextureArray(GL_RGBA32F, 8192, 8192, 2048, 1, "stack"); }),
+        HasSubstr("texture \"stack\" of 8192 x 8192 texels: the driver refuses it"));
     EXPECT_THAT(message([&] { renderer::makeTexture(GL_R32F, wider, 1, "map"); }),
                 HasSubstr("texture \"map\" of " + std::to_string(wider) + " x 1 texels"));
     renderer::Renderer frame(gl(), renderer::makeScene("yard"), 16, 9);

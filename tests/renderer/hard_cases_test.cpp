@@ -21,9 +21,10 @@ using tests::Precision;
 /// What may be lost in float. 32 bits: MSM's moments of nearly one depth are noise of .03 at its
 /// bias. GSM's band of light is as wide as the map's slope: a regression over a flat map finds the
 /// rounding's slope, and between two depths 1e-6 apart the stored one is 16 of float's steps. All
-/// others lose less than 1e-4. Sums raise the variance's floor by two of their units, in the cases by up
-/// to a quarter of it: .024 of visibility at .0004 from a depth. 2 x 16 bits: 20 bits. 16 bits: a mean is off by 2^-11 in each pass,
-/// over the least distance of a receiver from a depth in the cases.
+/// others lose less than 1e-4. Sums raise the variance's floor by two of their units, in the cases
+/// by up to a quarter of it: .024 of visibility at .0004 from a depth. 2 x 16 bits: 20 bits. 16
+/// bits: a mean is off by 2^-11 in each pass, over the least distance of a receiver from a depth in
+/// the cases.
 double mostAsStored(const Technique& technique) {
     switch (technique.format) {
         case MapFormat::rg16f:

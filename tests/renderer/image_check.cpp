@@ -8,6 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/project_folders.h"
+
 namespace tests {
 namespace {
 
@@ -36,8 +38,7 @@ void expectImagesAgree(const std::string& name, const renderer::FloatImage& rend
     const double share =
         static_cast<double>(beyond) / static_cast<double>(difference.values.size());
     if (most <= limits.most && share <= limits.shareBeyondOften) return;
-    const std::filesystem::path folder =
-        std::filesystem::path(STAIRWELL_BIN_DIR).parent_path() / "failed_images";
+    const std::filesystem::path folder = programFolder().parent_path() / "failed_images";
     std::filesystem::create_directories(folder);
     save(folder / (name + "_rendered.png"), rendered, 1, 0);
     save(folder / (name + "_expected.png"), expected, 1, 0);

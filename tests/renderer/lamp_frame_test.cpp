@@ -73,7 +73,8 @@ struct Pixels {
           eye(frame.viewConstants().eye) {}
     bool sky(int x, int y) const { return positions.at(x, y, 3) == 0; }
     glm::dvec3 world(int x, int y) const {
-        return eye + glm::dvec3(positions.at(x, y, 0), positions.at(x, y, 1), positions.at(x, y, 2));
+        return eye +
+               glm::dvec3(positions.at(x, y, 0), positions.at(x, y, 1), positions.at(x, y, 2));
     }
     glm::dvec3 normal(int x, int y) const {
         return {planes.at(x, y, 0), planes.at(x, y, 1), planes.at(x, y, 2)};
@@ -108,7 +109,8 @@ Wrong againstRays(renderer::Renderer& frame, std::size_t light, const Lamp& lamp
 bool nearSeam(glm::dvec3 point) {
     glm::dvec3 way = glm::abs(point - glm::dvec3(kPoint.position));
     const double largest = std::max({way.x, way.y, way.z});
-    const double second = std::max({std::min(way.x, way.y), std::min(std::max(way.x, way.y), way.z)});
+    const double second =
+        std::max({std::min(way.x, way.y), std::min(std::max(way.x, way.y), way.z)});
     return second > 0.93 * largest;
 }
 
@@ -136,8 +138,8 @@ TEST(LampFrame, ASpotsShadowsAreThoseOfRays) {
     EXPECT_LT(cone.share(), 0.01);
 }
 
-// Soft ones too: half of the light is where the ray's hard edge is. The slack is for techniques that
-// leak or widen.
+// Soft ones too: half of the light is where the ray's hard edge is. The slack is for techniques
+// that leak or widen.
 TEST(LampFrame, EveryTechniqueShadowsWithBothKindsOfLamps) {
     std::vector<Lamp> lamps = {kPoint, kSpot};
     renderer::Renderer frame(gl(), ballScene(lamps), 120, 80);
@@ -187,8 +189,10 @@ TEST(LampFrame, GpuAgreesWithCpuOnALampsMap) {
                             glm::dot(eyeRelative, glm::vec3(frame.viewConstants().forward)),
                             shadow))
                     continue;
-                const renderer::CpuMap<float> map{
-                    .depths = {depths.values.data(), depths.width}, .edge = 0, .texels = {}, .sums = {}};
+                const renderer::CpuMap<float> map{.depths = {depths.values.data(), depths.width},
+                                                  .edge = 0,
+                                                  .texels = {},
+                                                  .sums = {}};
                 cpu.at(x, y) = !receiver.facesLight
                                    ? 0
                                    : renderer::cpuVisibility(technique, map, receiver, shadow);
@@ -246,11 +250,13 @@ TEST(LampFrame, MapsHaveSizesOfTheirOwn) {
         frame.render({.technique = disc, .maps = {{.resolution = 64}}});
         FAIL() << "a map is missing";
     } catch (const std::invalid_argument& error) {
-        EXPECT_THAT(error.what(), HasSubstr("maps is 1 long, must be one for each of the frame's 2"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("maps is 1 long, must be one for each of the frame's 2"));
     }
     EXPECT_THROW(frame.setCascades(9), std::invalid_argument);
     EXPECT_THROW(frame.setLamps({Lamp{.nearM = -1}}), std::invalid_argument);
-    EXPECT_THROW(frame.setLamps(std::vector<Lamp>(renderer::kMostLamps + 1)), std::invalid_argument);
+    EXPECT_THROW(frame.setLamps(std::vector<Lamp>(renderer::kMostLamps + 1)),
+                 std::invalid_argument);
     frame.setLamps({});
     EXPECT_EQ(frame.lightViews().size(), 1U);
 }

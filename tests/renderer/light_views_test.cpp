@@ -87,7 +87,8 @@ TEST(LampViews, RefusesLampsThatCannotBeDrawn) {
     EXPECT_EQ(renderer::validate(Lamp{}), "");
     EXPECT_THAT(renderer::validate(Lamp{.coneDeg = 0}), HasSubstr("coneDeg is 0"));
     EXPECT_THAT(renderer::validate(Lamp{.coneDeg = 151}), HasSubstr("must be in (0, 150]"));
-    EXPECT_THAT(renderer::validate(Lamp{.position = {0, 3, 0}, .target = {0, 3, 0}}), HasSubstr("target"));
+    EXPECT_THAT(renderer::validate(Lamp{.position = {0, 3, 0}, .target = {0, 3, 0}}),
+                HasSubstr("target"));
     EXPECT_THAT(renderer::validate(Lamp{.nearM = 0}), HasSubstr("nearM"));
     EXPECT_THAT(renderer::validate(Lamp{.nearM = 2, .farM = 2}), HasSubstr("farM"));
     EXPECT_THAT(renderer::validate(Lamp{.position = {0, NAN, 0}}), HasSubstr("position"));

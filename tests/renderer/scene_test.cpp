@@ -92,10 +92,10 @@ TEST(Scene, RefusesUnknownOptionsAndCountsInOneSentence) {
     EXPECT_EQ(both.cascades, 3);
     EXPECT_GT(casterTriangles(both), 50000U);
     for (const char* count : {"", "x", "-5", "10", "1e6", "5000000", "99999999999999999999999"})
-        EXPECT_NE(refusal("city:triangles=" + std::string(count))
-                      .find("triangles is \"" + std::string(count) +
-                            "\", must be a whole number from "),
-                  std::string::npos)
+        EXPECT_NE(
+            refusal("city:triangles=" + std::string(count))
+                .find("triangles is \"" + std::string(count) + "\", must be a whole number from "),
+            std::string::npos)
             << refusal("city:triangles=" + std::string(count));
     EXPECT_NE(refusal(":triangles=5000").find("scene \"\" is not known"), std::string::npos);
 }

@@ -10,6 +10,7 @@
 #include "renderer/gl_context.h"
 #include "renderer/renderer.h"
 #include "renderer/scene.h"
+#include "tests/project_folders.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -135,7 +136,8 @@ TEST(ShaderLibrary, AFolderIsNamedInWhatIsWrongWithItsFiles) {
 }
 
 TEST(ShaderLibrary, EveryShaderOfTheTreeIsBuiltIn) {
-    const ShaderLibrary tree = ShaderLibrary::fromFolder(STAIRWELL_SOURCE_DIR "/renderer/shaders");
+    const ShaderLibrary tree =
+        ShaderLibrary::fromFolder(tests::sourceFolder() / "renderer/shaders");
     EXPECT_EQ(tree.files(), ShaderLibrary::embedded().files());
 }
 

@@ -145,8 +145,8 @@ TEST(NarrowedWindow, KeepsItsTexelGridWhileTheCameraMoves) {
             renderer::OrbitCamera camera = along(scene.cameraPath, scene.camera, i / 400.0);
             camera.distanceM = 30;
             camera.target = {20 * std::sin(0.05F * static_cast<float>(i)), 3, 0};
-            const auto window = snapToTexels(
-                narrowShadowWindow(whole, scene.casters, seenBy(camera), 1, step), n);
+            const auto window =
+                snapToTexels(narrowShadowWindow(whole, scene.casters, seenBy(camera), 1, step), n);
             ASSERT_TRUE(window.narrowed);
             const glm::dvec2 texels = place(window, point) * static_cast<double>(n);
             const glm::dvec2 phase = texels - glm::floor(texels);

@@ -2,7 +2,8 @@
 // Prints what the filtered techniques cost against each other and against the
 // full disc, in one interleaved run at the same softness, so that whatever else
 // the machine does falls on all of them: docs/results/technique-times.md.
-//   technique_times SCENE RADIUS_TEXELS... >> docs/results/technique-times.md   0: the scene's own softness
+//   technique_times SCENE RADIUS_TEXELS... >> docs/results/technique-times.md   0: the scene's own
+//   softness
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -57,9 +58,9 @@ std::string ratio(const Row& row, const Row& to) {
 void measure(const renderer::GlInfo& info, const char* scene, double radiusTexels) {
     using renderer::Pass;
     renderer::Renderer frame(info, renderer::makeScene(scene), kWidthPx, kHeightPx);
-    const auto radius = static_cast<float>(radiusTexels > 0
-                                               ? radiusTexels / kResolution
-                                               : frame.scene().softnessM / frame.window().extentM);
+    const auto radius =
+        static_cast<float>(radiusTexels > 0 ? radiusTexels / kResolution
+                                            : frame.scene().softnessM / frame.window().extentM);
     std::vector<Row> rows;
     for (const renderer::Technique& technique : renderer::techniques())
         if (technique.name == "pcf_disc" || technique.prefilter != renderer::Prefilter::none)

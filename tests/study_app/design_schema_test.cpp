@@ -17,6 +17,7 @@
 
 #include "records/json_document.h"
 #include "study_app/design_file.h"
+#include "tests/project_folders.h"
 #include "tests/study_app/bad_designs.h"
 #include "tests/study_app/frame_folder.h"
 #include "tests/study_app/mutated_designs.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using tests::patched;
 
-const fs::path kSource = STAIRWELL_SOURCE_DIR;
+const fs::path kSource = tests::sourceFolder();
 
 /// "ok" or the first problem of each.
 std::vector<std::string> bySchema(const std::string& schema, const std::vector<json>& designs) {

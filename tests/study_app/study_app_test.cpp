@@ -27,6 +27,7 @@
 #include "study_app/recorded_session.h"
 #include "study_app/session.h"
 #include "study_app/simulated_population.h"
+#include "tests/project_folders.h"
 #include "tests/run_command.h"
 #include "tests/study_app/test_designs.h"
 #include "tests/temporary_folder.h"
@@ -75,7 +76,7 @@ tests::CommandResult studyApp(const std::vector<std::string>& arguments) {
 /// Starts study_app with its output thrown away; `fileSizeLimit` in bytes, 0 for none.
 pid_t start(const std::vector<std::string>& arguments, rlim_t fileSizeLimit = 0,
             const fs::path& errors = "/dev/null") {
-    const std::string program = std::string(STAIRWELL_BIN_DIR) + "/study_app";
+    const std::string program = (tests::programFolder() / "study_app").string();
     std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);

@@ -2,11 +2,12 @@
 #include "tests/study_app/test_designs.h"
 
 #include "study_app/design_file.h"
+#include "tests/project_folders.h"
 
 namespace tests {
 
 std::filesystem::path shippedDesignFile(const std::string& name) {
-    return std::filesystem::path(STAIRWELL_SOURCE_DIR) / "data/designs" / (name + ".json");
+    return sourceFolder() / "data/designs" / (name + ".json");
 }
 
 study_app::Design shippedDesign(const std::string& name) {

@@ -18,6 +18,8 @@
 #include <system_error>
 #include <thread>
 
+#include "tests/project_folders.h"
+
 namespace tests {
 namespace {
 
@@ -101,7 +103,7 @@ WindowPerson::WindowPerson(const XServer& server, const std::filesystem::path& f
                            const std::map<std::string, std::string>& environment)
     : display_(server.display()), log_(folder / "events.log"), errors_(folder / "errors.txt") {
     std::filesystem::remove(log_);
-    arguments.insert(arguments.begin(), std::string(STAIRWELL_BIN_DIR) + "/study_app");
+    arguments.insert(arguments.begin(), (programFolder() / "study_app").string());
     for (const std::string& more :
          {std::string("--event-log"), log_.string(), std::string("--displays"),
           (folder / "displays.json").string(), std::string("--verify-pixels")}) {
