@@ -48,10 +48,12 @@ class DirectRun {
         : info_(info),
           settings_(settings),
           table_(readSweep(settings.folder)),
-          comparisons_(comparePolicies(table_)),
+          comparisons_(comparePolicies(table_, RippleOver::eachScene)),
           journal_(settings.folder / kJournal, kDirectColumns,
                    records::contextText(context) + "\n" + settings.plan()),
           view_(info, settings.widthPx, settings.heightPx, settings.frames) {
+        for (PolicyComparison& more : comparePolicies(table_, RippleOver::allTogether))
+            comparisons_.push_back(std::move(more));
         for (const TsvRow& row : journal_.table().rows())
             done_.insert(keyOf(row.text("scene"), row.text("frame"), row.text("technique"),
                                row.text("policy"), row.text("parameter")));
@@ -78,11 +80,16 @@ class DirectRun {
         std::vector<PolicyResult> list;
         for (const PolicyComparison& comparison : comparisons_) {
             if (comparison.technique != technique) continue;
-            for (const auto& entry : comparison.entries)
-                if (entry.result && !done_.contains(keyOf(scene, std::to_string(frame), technique,
-                                                          std::string(entry.policy->name),
-                                                          tsvNumber(entry.result->parameter))))
+            for (const auto& entry : comparison.entries) {
+                const auto same = [&](const PolicyResult& other) {
+                    return other.policy == entry.policy && other.step == entry.result->step;
+                };
+                if (entry.result && std::none_of(list.begin(), list.end(), same) &&
+                    !done_.contains(keyOf(scene, std::to_string(frame), technique,
+                                          std::string(entry.policy->name),
+                                          tsvNumber(entry.result->parameter))))
                     list.push_back(*entry.result);
+            }
         }
         return list;
     }
@@ -217,11 +224,13 @@ std::vector<DirectRow> readDirect(const std::filesystem::path& folder) {
 }
 
 std::optional<DirectResult> directResult(const std::vector<DirectRow>& rows,
-                                         const SweepTable& table, const PolicyResult& fromTable) {
+                                         const SweepTable& table, const PolicyResult& fromTable,
+                                         RippleOver over) {
     DirectResult result;
     RippleCounts ripples;
     double logs = 0;
     for (const std::string& scene : table.scenes) {
+        RippleCounts ofScene;
         double sum = 0;
         for (int frame = 0; frame < table.frames; ++frame) {
             const auto found = std::find_if(rows.begin(), rows.end(), [&](const DirectRow& row) {
@@ -233,12 +242,14 @@ std::optional<DirectResult> directResult(const std::vector<DirectRow>& rows,
             if (found == rows.end()) return std::nullopt;
             sum += found->frameMs;
             result.worstRmse = std::max(result.worstRmse, found->rmse);
-            addCounts(ripples, found->ripples);
+            addCounts(ofScene, found->ripples);
         }
+        addCounts(ripples, ofScene);
+        result.rippleP95 = std::max(result.rippleP95, rippleP95(ofScene));
         logs += std::log(sum / table.frames);
     }
     result.geometricMeanMs = std::exp(logs / static_cast<double>(table.scenes.size()));
-    result.rippleP95 = rippleP95(ripples);
+    if (over == RippleOver::allTogether) result.rippleP95 = rippleP95(ripples);
     return result;
 }
 

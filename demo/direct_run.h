@@ -48,12 +48,14 @@ struct DirectRow {
 std::vector<DirectRow> readDirect(const std::filesystem::path& folder);
 
 /// A policy over all frames, as measured directly; absent where a frame was not, or with another
-/// parameter. Ripples are those of the table's bound: over all frames together.
+/// parameter.
 struct DirectResult {
     double geometricMeanMs = 0;  ///< over the scenes, as in PolicyResult
-    double rippleP95 = 0, worstRmse = 0;
+    double rippleP95 = 0;        ///< over what the comparison takes it
+    double worstRmse = 0;
 };
 std::optional<DirectResult> directResult(const std::vector<DirectRow>& rows,
-                                         const SweepTable& table, const PolicyResult& fromTable);
+                                         const SweepTable& table, const PolicyResult& fromTable,
+                                         RippleOver over);
 
 }  // namespace demo

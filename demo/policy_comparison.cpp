@@ -16,6 +16,7 @@ PolicyResult evaluate(const SweepTable& table, const SizingPolicy& policy,
     RippleCounts ripples;
     double logs = 0;
     for (const std::string& scene : table.scenes) {
+        RippleCounts ofScene;
         double sum = 0;
         double rmse = 0;
         for (int frame = 0; frame < table.frames; ++frame) {
@@ -46,57 +47,63 @@ PolicyResult evaluate(const SweepTable& table, const SizingPolicy& policy,
             }
             sum += cell->frameMs.median;
             rmse = std::max(rmse, cell->rmse);
-            addCounts(ripples, cell->ripples);
+            addCounts(ofScene, cell->ripples);
         }
+        result.rippleP95 = std::max(result.rippleP95, rippleP95(ofScene));
+        addCounts(ripples, ofScene);
         result.sceneMs.push_back(sum / table.frames);
         result.sceneRmse.push_back(rmse);
         result.worstRmse = std::max(result.worstRmse, rmse);
         logs += std::log(sum / table.frames);
     }
     result.geometricMeanMs = std::exp(logs / static_cast<double>(table.scenes.size()));
-    result.rippleP95 = rippleP95(ripples);
+    result.rippleP95Together = rippleP95(ripples);
     return result;
 }
 
 std::optional<PolicyResult> calibrated(const SweepTable& table, const SizingPolicy& policy,
-                                       const std::string& technique, double bound) {
+                                       const std::string& technique, RippleOver over,
+                                       double bound) {
     std::optional<PolicyResult> best;
     for (int step = -kPolicySteps; step <= kPolicySteps; ++step) {
         PolicyResult result = evaluate(table, policy, technique, step);
-        if (!result.complete() || !(result.rippleP95 <= bound)) continue;
+        if (!result.complete() || !(result.ripple(over) <= bound)) continue;
         if (!best || result.geometricMeanMs < best->geometricMeanMs) best = std::move(result);
     }
     return best;
 }
 
 std::optional<PolicyResult> leastRipple(const SweepTable& table, const SizingPolicy& policy,
-                                        const std::string& technique) {
+                                        const std::string& technique, RippleOver over) {
     std::optional<PolicyResult> least;
     for (int step = -kPolicySteps; step <= kPolicySteps; ++step) {
         PolicyResult result = evaluate(table, policy, technique, step);
         if (!result.complete()) continue;
-        if (!least || result.rippleP95 < least->rippleP95) least = std::move(result);
+        if (!least || result.ripple(over) < least->ripple(over)) least = std::move(result);
     }
     return least;
 }
 
-std::vector<PolicyComparison> comparePolicies(const SweepTable& table, double bound) {
+std::vector<PolicyComparison> comparePolicies(const SweepTable& table, RippleOver over,
+                                              double bound) {
     std::vector<PolicyComparison> all;
     for (const std::string& technique : table.techniques) {
         PolicyComparison comparison;
         comparison.technique = technique;
+        comparison.over = over;
         comparison.bound = bound;
-        comparison.ours = calibrated(table, automaticPolicy(), technique, bound);
+        comparison.ours = calibrated(table, automaticPolicy(), technique, over, bound);
         if (!comparison.ours)
-            if (const auto least = leastRipple(table, automaticPolicy(), technique)) {
-                comparison.bound = least->rippleP95;
-                comparison.ours = calibrated(table, automaticPolicy(), technique, comparison.bound);
+            if (const auto least = leastRipple(table, automaticPolicy(), technique, over)) {
+                comparison.bound = least->ripple(over);
+                comparison.ours =
+                    calibrated(table, automaticPolicy(), technique, over, comparison.bound);
             }
         for (const SizingPolicy& policy : sizingPolicies()) {
             PolicyComparison::Entry entry;
             entry.policy = &policy;
-            entry.result = calibrated(table, policy, technique, comparison.bound);
-            if (!entry.result) entry.nearest = leastRipple(table, policy, technique);
+            entry.result = calibrated(table, policy, technique, over, comparison.bound);
+            if (!entry.result) entry.nearest = leastRipple(table, policy, technique, over);
             if (entry.result && comparison.ours)
                 entry.timesOurs = entry.result->geometricMeanMs / comparison.ours->geometricMeanMs;
             comparison.entries.push_back(std::move(entry));
@@ -111,7 +118,7 @@ std::vector<SlopeStep> sweepOverSlope(const SweepTable& table, const std::string
     std::vector<SlopeStep> steps;
     for (const double c : slopes) {
         const int step =
-            std::clamp(static_cast<int>(std::lround(4 * std::log2(c / automaticPolicy().standard))),
+            std::clamp(static_cast<int>(std::lround(8 * std::log2(c / automaticPolicy().standard))),
                        -kPolicySteps, kPolicySteps);
         steps.push_back({policyParameter(automaticPolicy().standard, step),
                          evaluate(table, automaticPolicy(), technique, step)});

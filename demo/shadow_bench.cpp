@@ -84,11 +84,12 @@ void printPolicies(const std::vector<demo::PolicyComparison>& comparisons) {
                         std::string(entry.policy->name).c_str());
             if (entry.result)
                 std::printf(" %8.2f ms  %6.3f of ours  ripple %.3f  %s %.4g\n",
-                            entry.result->geometricMeanMs, entry.timesOurs, entry.result->rippleP95,
+                            entry.result->geometricMeanMs, entry.timesOurs,
+                            entry.result->ripple(comparison.over),
                             std::string(entry.policy->parameter).c_str(), entry.result->parameter);
             else if (entry.nearest)
                 std::printf(" cannot keep to %.3f: ripple %.3f at least\n", comparison.bound,
-                            entry.nearest->rippleP95);
+                            entry.nearest->ripple(comparison.over));
             else
                 std::printf(" has no parameter of which all sizes were measured\n");
         }
@@ -158,7 +159,10 @@ void sweep(const Options& options) {
     }
     const demo::SweepTable table = demo::readSweep(options.out);
     const auto report = demo::writeSweepReport(options.out, table, options.stability);
-    printPolicies(demo::comparePolicies(table));
+    std::printf("ripple within the bound in every scene:\n");
+    printPolicies(demo::comparePolicies(table, demo::RippleOver::eachScene));
+    std::printf("ripple within the bound over all scenes together:\n");
+    printPolicies(demo::comparePolicies(table, demo::RippleOver::allTogether));
     for (const std::string& broken : demo::brokenTechniques(table))
         std::printf("BROKEN: %s\n", broken.c_str());
     std::printf("report: %s\n", report.string().c_str());

@@ -33,6 +33,14 @@ double byDistance(const FrameFacts& facts, double texelsPerRadian) {
     return texelsPerRadian * facts.mapExtentM / facts.distanceM;
 }
 
+constexpr double kPublishedSlope = 3.47;
+
+/// The controller's rule, under which no texel is finer than a pixel. Who asks for more than the
+/// study does has to ask for finer texels too, or no c would help a shadow as sharp as the pixels.
+float pixelBound(double c) {
+    return static_cast<float>(std::max(1.0, c / kPublishedSlope));
+}
+
 /// What the controller would take, before limits.
 double byDemand(const FrameFacts& facts, rc::Settings settings, double contrastExponent, double c) {
     rc::DemandRule rule = rc::demandRule(settings);
@@ -51,18 +59,16 @@ double paper(const FrameFacts& facts, double c) {
 }
 
 double bounded(const FrameFacts& facts, double c) {
-    return byDemand(facts, {.percentile = rc::kMaximumRule}, 0, c);
+    return byDemand(facts, {.percentile = rc::kMaximumRule, .pixelBound = pixelBound(c)}, 0, c);
 }
 
 double percentile(const FrameFacts& facts, double c) {
-    return byDemand(facts, {}, 0, c);
+    return byDemand(facts, {.pixelBound = pixelBound(c)}, 0, c);
 }
 
 double contrast(const FrameFacts& facts, double c) {
-    return byDemand(facts, {}, facts.slope.contrastExponent, c);
+    return byDemand(facts, {.pixelBound = pixelBound(c)}, facts.slope.contrastExponent, c);
 }
-
-constexpr double kPublishedSlope = 3.47;
 
 constexpr SizingPolicy kPolicies[] = {
     {.name = "fixed",
@@ -100,22 +106,22 @@ constexpr SizingPolicy kPolicies[] = {
      .texels = paper},
     {.name = "bounded",
      .title = "Published rule, no finer than pixels",
-     .source = "METHODS section 7, pixel bound",
-     .parameter = "c",
+     .source = "N(p) = min(c / r, k / sigma)",
+     .parameter = "c, with c / 3.47 texels per pixel above it",
      .standard = kPublishedSlope,
      .ours = true,
      .texels = bounded},
     {.name = "percentile",
      .title = "Automatic: pixel bound and percentile",
-     .source = "METHODS section 7, 98 % of the points",
-     .parameter = "c",
+     .source = "98 % of the length of the shadows' edges",
+     .parameter = "c, with c / 3.47 texels per pixel above it",
      .standard = kPublishedSlope,
      .ours = true,
      .texels = percentile},
     {.name = "contrast",
      .title = "Automatic, with contrast",
-     .source = "METHODS section 7, c falls with the contrast of the edge as the slope file says",
-     .parameter = "c",
+     .source = "c falls with the contrast of the edge as the slope file says",
+     .parameter = "c, with c / 3.47 texels per pixel above it",
      .standard = kPublishedSlope,
      .ours = true,
      .texels = contrast},

@@ -89,15 +89,18 @@ class Sweep {
 
     void run() {
         const std::vector<Unit> units = shardOfUnits();
-        const std::set<std::string> done = measuredUnits();
+        const std::set<std::string> measured = measuredUnits(), asked = askedUnits();
         program::Progress progress("sweeping",
                                    units.size() * static_cast<std::size_t>(settings_.rounds));
         for (int round = 0; round < settings_.rounds; ++round)
             for (const Unit& unit : units) {
+                const std::string key = joined(unit.key());
                 if (round > 0)
                     revisit(unit, round);
-                else if (!done.contains(joined(unit.key())))
+                else if (!measured.contains(key))
                     measure(unit);
+                else if (!asked.contains(key))
+                    askPolicies(unit);
                 progress.advance();
             }
     }
@@ -126,12 +129,22 @@ class Sweep {
         return mine;
     }
 
-    /// Units whose first round is in all journals.
+    /// Units whose first round is in the journals of times and errors: the times of the largest
+    /// size are written last.
     std::set<std::string> measuredUnits() const {
         std::set<std::string> done;
-        const std::string last(sizingPolicies().back().name);  // what is written last
+        for (const TsvRow& row : times_.table().rows())
+            if (row.whole("round") == 0 && row.whole("resolution") == settings_.sizes.back())
+                done.insert(keyOf(row, {"scene", "frame", "technique"}));
+        return done;
+    }
+    /// Units of which every policy was asked for every step of its parameter.
+    std::set<std::string> askedUnits() const {
+        std::set<std::string> done;
+        const std::string last(sizingPolicies().back().name);
         for (const TsvRow& row : policies_.table().rows())
-            if (row.text("policy") == last)
+            if (row.text("policy") == last &&
+                wholeNumbers(row.text("sizes")).size() == 2 * kPolicySteps + 1)
                 done.insert(keyOf(row, {"scene", "frame", "technique"}));
         return done;
     }
@@ -196,6 +209,25 @@ class Sweep {
         writePolicies(unit);
     }
 
+    /// Of a unit that was measured before, by its reference.
+    void askPolicies(const Unit& unit) {
+        int reference = 0;
+        for (const TsvRow& row : errors_.table().rows())
+            if (keyOf(row, {"scene", "frame", "technique"}) == joined(unit.key()))
+                reference = row.whole("reference");
+        if (reference == 0) return;  // no size could be drawn
+        show(unit);
+        drawReference(unit, reference);
+        writePolicies(unit);
+    }
+
+    void drawReference(const Unit& unit, int resolution) {
+        frame_->render({.technique = unit.technique->technique,
+                        .parameters = unit.technique->parameters,
+                        .resolution = resolution,
+                        .radiusUv = static_cast<float>(softness_.radiusUv)});
+    }
+
     void revisit(const Unit& unit, int round) {
         const std::vector<int> sizes = sizesToRevisit(unit, round);
         if (sizes.empty()) return;
@@ -256,10 +288,7 @@ class Sweep {
         if (largest == sizes.rend()) return;
         const Measured& reference = *largest;
         if (unit.frame == 0) addMoved(unit, sizes);
-        frame_->render({.technique = unit.technique->technique,
-                        .parameters = unit.technique->parameters,
-                        .resolution = reference.resolution,
-                        .radiusUv = static_cast<float>(softness_.radiusUv)});
+        drawReference(unit, reference.resolution);
         const renderer::FloatImage places = mapPlaces(*frame_);
         const std::vector<Contour> contours = shadowContours(reference.visibility, places);
         const std::vector<bool> thin =
@@ -425,7 +454,7 @@ std::string SweepSettings::plan() const {
 }
 
 double policyParameter(double standard, int step) {
-    return standard * std::exp2(step / 4.0);
+    return standard * std::exp2(step / 8.0);
 }
 
 void runSweep(const renderer::GlInfo& info, const SweepSettings& settings,

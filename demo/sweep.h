@@ -80,9 +80,9 @@ inline const std::vector<std::string> kSweepErrorColumns = {"scene",
 inline const std::vector<std::string> kSweepPolicyColumns = {"scene", "frame", "technique",
                                                              "policy", "sizes"};
 
-/// A policy's parameter is tried at `standard` x 2^(step / 4), step = -kPolicySteps ..
-/// kPolicySteps.
-inline constexpr int kPolicySteps = 20;
+/// A policy's parameter is tried at `standard` x 2^(step / 8), step = -kPolicySteps ..
+/// kPolicySteps: finer than the sizes' sqrt 2, since not all scenes change theirs at once.
+inline constexpr int kPolicySteps = 40;
 double policyParameter(double standard, int step);
 
 /// Measures what the journals do not hold yet. `context` goes into their heads. Throws

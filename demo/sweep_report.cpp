@@ -2,10 +2,12 @@
 #include "demo/sweep_report.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
+#include "demo/automatic_against_fixed.h"
 #include "demo/direct_run.h"
 #include "demo/growth_exponent.h"
 #include "demo/growth_run.h"
@@ -82,7 +84,8 @@ void addHeadline(records::HtmlPage& page, const std::vector<PolicyComparison>& c
                 " at automatic size with c = " + formatted("%.2f", comparison.ours->parameter) +
                 ": whole frames, geometric mean over " + std::to_string(table.scenes.size()) +
                 " scenes, both with an edge ripple of at most " +
-                formatted("%.3f", comparison.bound) + " at 95 % of the contour pixels.");
+                formatted("%.3f", comparison.bound) +
+                " at 95 % of the contour pixels of every scene's path.");
     }
 }
 
@@ -94,21 +97,16 @@ std::string standing(const PolicyComparison& comparison, const PolicyComparison:
     return "cannot keep to " + formatted("%.3f", comparison.bound) + ": nearest shown";
 }
 
-void addPolicies(records::HtmlPage& page, Tables& tables,
-                 const std::vector<PolicyComparison>& comparisons, const SweepTable& table,
-                 const std::vector<DirectRow>& directRows) {
-    page.heading("Sizing policies at equal quality");
-    page.paragraph(
-        "Every policy has one parameter, set to the fastest value at which edge ripple over all "
-        "scenes' paths stays within the bound. Times are whole frames from one measured table; "
-        "above 1 a policy is slower than ours, below 1 we lose. Then each policy drew the frames "
-        "itself with that parameter: the direct columns.");
+void addPolicyTable(Tables& tables, const std::string& name,
+                    const std::vector<PolicyComparison>& comparisons, const SweepTable& table,
+                    const std::vector<DirectRow>& directRows, const std::string& caption) {
     std::vector<std::vector<std::string>> rows;
     for (const PolicyComparison& comparison : comparisons)
         for (const auto& entry : comparison.entries) {
             const std::optional<PolicyResult>& result = entry.result ? entry.result : entry.nearest;
             const std::optional<DirectResult> direct =
-                entry.result ? directResult(directRows, table, *entry.result) : std::nullopt;
+                entry.result ? directResult(directRows, table, *entry.result, comparison.over)
+                             : std::nullopt;
             std::vector<std::string> row = {comparison.technique, std::string(entry.policy->name)};
             const auto number = [&](const char* format, double value) {
                 row.push_back(formatted(format, value));
@@ -118,7 +116,7 @@ void addPolicies(records::HtmlPage& page, Tables& tables,
             row.push_back(result ? std::to_string(result->smallest) + " to " +
                                        std::to_string(result->largest)
                                  : "n/a");
-            number("%.3f", result ? result->rippleP95 : NAN);
+            number("%.3f", result ? result->ripple(comparison.over) : NAN);
             number("%.4f", result ? result->worstRmse : NAN);
             number("%.2f", result ? result->geometricMeanMs : NAN);
             number("%.3f", entry.timesOurs);
@@ -135,10 +133,27 @@ void addPolicies(records::HtmlPage& page, Tables& tables,
                                      "sizes",       "ripple p95",    "worst RMSE", "ms",
                                      "time / ours", "direct ripple", "direct ms",  "standing"};
     for (const std::string& scene : table.scenes) head.push_back(scene);
-    tables.add("policies", head, rows,
-               "One row for each technique and policy. Where no value of the parameter keeps to "
-               "the bound, the one with the least ripple stands there, and no ratio. The last "
-               "columns are time over ours by scene.");
+    tables.add(name, head, rows, caption);
+}
+
+void addPolicies(records::HtmlPage& page, Tables& tables,
+                 const std::vector<PolicyComparison>& comparisons, const SweepTable& table,
+                 const std::vector<DirectRow>& directRows) {
+    page.heading("Sizing policies at equal quality");
+    page.paragraph(
+        "Every policy has one parameter, set to the fastest value at which the edge ripple of 95 % "
+        "of the contour pixels stays within the bound. Times are whole frames from one measured "
+        "table; above 1 a policy is slower than ours, below 1 we lose. Then each policy drew the "
+        "frames itself with that parameter: the direct columns.");
+    addPolicyTable(tables, "policies", comparisons, table, directRows,
+                   "The bound holds in every scene's path. One row for each technique and policy. "
+                   "Where no value of the parameter keeps to the bound, the one with the least "
+                   "ripple stands there, and no ratio. The last columns are time over ours by "
+                   "scene.");
+    addPolicyTable(tables, "policies_together", comparePolicies(table, RippleOver::allTogether),
+                   table, directRows,
+                   "The bound holds over the contour pixels of all scenes together, so that a "
+                   "scene with few of them may be over it.");
     std::vector<std::pair<std::string, std::string>> terms;
     for (const SizingPolicy& policy : sizingPolicies())
         terms.emplace_back(policy.name, std::string(policy.title) + ": " +
@@ -147,8 +162,54 @@ void addPolicies(records::HtmlPage& page, Tables& tables,
     page.terms(terms);
 }
 
-/// What `--resolution auto` does, cell by cell.
-void addAutomatic(records::HtmlPage& page, Tables& tables, const std::vector<DirectRow>& direct) {
+/// The two largest powers of two among the sweep's sizes, which are what engines fix; ascending.
+std::vector<int> fixedSizes(const SweepTable& table) {
+    std::vector<int> sizes;
+    for (const int size : table.sizes)
+        if (std::has_single_bit(static_cast<unsigned>(size))) sizes.push_back(size);
+    if (sizes.size() > 2) sizes.erase(sizes.begin(), sizes.end() - 2);
+    return sizes;
+}
+
+/// One number for all techniques that have one.
+void addOverallHeadline(records::HtmlPage& page, const std::vector<DirectRow>& direct,
+                        const SweepTable& table) {
+    const std::vector<int> sizes = fixedSizes(table);
+    if (sizes.empty()) return;
+    double logs = 0, rmse = 0;
+    std::string techniques;
+    int count = 0;
+    for (const AutomaticAgainstFixed& one : automaticAgainstFixed(direct, table, {sizes.back()})) {
+        if (!std::isfinite(one.geometricMean)) continue;
+        logs += std::log(one.geometricMean);
+        rmse = std::max(rmse, one.worstRmse);
+        techniques += (count++ == 0 ? "" : ", ") + one.technique;
+    }
+    if (count == 0) return;
+    page.headline(formatted("%.1fx", std::exp(logs / count)) + " the speed",
+                  "of a fixed map of " + std::to_string(sizes.back()) +
+                      " at the automatic size, both of the same softness: whole frames, geometric "
+                      "mean over " +
+                      std::to_string(table.scenes.size()) + " scenes and " + techniques +
+                      "; resolution error of the automatic size at most " +
+                      formatted("%.3f", rmse) + " RMSE in a frame.");
+}
+
+/// What `--resolution auto` does, in all and cell by cell.
+void addAutomatic(records::HtmlPage& page, Tables& tables, const std::vector<DirectRow>& direct,
+                  const SweepTable& table) {
+    std::vector<std::vector<std::string>> summary;
+    for (const AutomaticAgainstFixed& one :
+         automaticAgainstFixed(direct, table, fixedSizes(table))) {
+        std::vector<std::string> row = {one.technique,
+                                        std::to_string(one.fixed),
+                                        formatted("%.2f", one.geometricMean),
+                                        formatted("%.4f", one.worstRmse),
+                                        formatted("%.3f", one.rippleP95),
+                                        formatted("%.3f", one.rippleMost)};
+        for (const double times : one.times) row.push_back(formatted("%.2f", times));
+        summary.push_back(std::move(row));
+    }
     std::vector<std::vector<std::string>> rows;
     for (const DirectRow& row : direct)
         if (row.policy == kControllerRun)
@@ -158,6 +219,13 @@ void addAutomatic(records::HtmlPage& page, Tables& tables, const std::vector<Dir
                             formatted("%.3f", row.rippleP95)});
     if (rows.empty()) return;
     page.heading("The automatic size");
+    std::vector<std::string> head = {"technique",  "fixed",      "times as fast",
+                                     "worst RMSE", "ripple p95", "ripple max"};
+    head.insert(head.end(), table.scenes.begin(), table.scenes.end());
+    tables.add("automatic_against_fixed", head, summary,
+               "Time at a fixed size over that at the automatic one: geometric mean over the "
+               "scenes, then by scene; 1 and below: nothing is saved there. Errors are those of "
+               "the automatic size over all frames; ripple max is that of the worst pixel.");
     tables.add("automatic",
                {"scene", "frame", "technique", "c", "N", "reference", "ms", "RMSE", "ripple p95"},
                rows,
@@ -239,8 +307,10 @@ void addSlopes(records::HtmlPage& page, Tables& tables, const SweepTable& table)
                  std::to_string(result.smallest) + " to " + std::to_string(result.largest),
                  result.complete() ? "" : result.missing});
         }
-    tables.add("slopes", {"technique", "c", "ms", "ripple p95", "worst RMSE", "sizes", "missing"},
-               rows, "The automatic size with other slopes, in steps of 2^(1/4).");
+    tables.add(
+        "slopes", {"technique", "c", "ms", "ripple p95", "worst RMSE", "sizes", "missing"}, rows,
+        "The automatic size with other slopes, in steps of 2^(1/8); ripple p95 of the scene in "
+        "which it is largest.");
 }
 
 void addCosts(records::HtmlPage& page, Tables& tables, const SweepTable& table) {
@@ -449,11 +519,12 @@ fs::path writeSweepReport(const fs::path& folder, const SweepTable& table,
     const std::vector<PolicyComparison> comparisons = comparePolicies(table);
     records::HtmlPage page("Speed against error");
     for (const std::string& what : brokenTechniques(table)) page.failure("Broken: " + what + ".");
+    const std::vector<DirectRow> direct = readDirect(folder);
+    addOverallHeadline(page, direct, table);
     addHeadline(page, comparisons, table);
     Tables tables(page, folder, table.context);
-    const std::vector<DirectRow> direct = readDirect(folder);
     addPolicies(page, tables, comparisons, table, direct);
-    addAutomatic(page, tables, direct);
+    addAutomatic(page, tables, direct, table);
     addPictures(page, table, folder);
     addFronts(page, tables, table);
     addSlopes(page, tables, table);

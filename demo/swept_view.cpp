@@ -17,16 +17,17 @@ std::string sweptScene(const std::string& source, double softness) {
 }
 
 void SweptView::show(const std::string& source, double softness, int frame) {
-    if (!renderer_ || source_ != source) {
-        renderer_.reset();
+    if (!renderer_) {
         renderer_ = std::make_unique<renderer::Renderer>(info_, renderer::openScene(source),
                                                          widthPx_, heightPx_);
-        source_ = source;
-        start_ = renderer_->scene();
         // A window narrowed to the view holds its extent from the frames before, and shards and
         // resumed runs come from others.
         renderer_->setWindowFit(renderer::WindowFit::casters);
+    } else if (source_ != source) {
+        renderer_->setScene(renderer::openScene(source));
     }
+    if (source_ != source) start_ = renderer_->scene();
+    source_ = source;
     factor_ = softness;
     path_ = pathView(start_, frame, frames_);
     renderer_->setCamera(path_.camera);

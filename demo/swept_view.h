@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The views that a sweep measures: a frame of a scene's path at a softness, in a renderer that is
-// kept while the scene stays.
+// The views that a sweep measures: a frame of a scene's path at a softness, in a renderer that
+// keeps its programs from scene to scene.
 #pragma once
 
 #include <memory>

@@ -71,8 +71,8 @@ class DemandPass {
     /// Pixels along the edge of a cell, of which one is asked in each frame.
     static constexpr int kCellEdge = 4;
 
-    /// `demandGlsl`: text that defines StairwellDemandRule, stairwellDemand() and
-    /// stairwellDemandCounter(). Throws std::runtime_error where it does not compile.
+    /// `demandGlsl`: text that defines StairwellDemandRule, stairwellDemand(),
+    /// stairwellDemandWeight() and stairwellDemandCounter(). Throws std::runtime_error where it does not compile.
     DemandPass(const ShaderLibrary& shaders, const std::string& demandGlsl);
 
     /// Counts the demand of the frame that `frame` drew last. Nothing happens before its first

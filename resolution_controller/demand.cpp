@@ -41,6 +41,13 @@ float demand(float c, float radiusUv, float footprint, float pixelBound) noexcep
     return atMostPerPixel(forFilter, footprint, pixelBound);
 }
 
+std::uint32_t demandWeight(float radiusUv, float footprint) noexcept {
+    if (!positiveAndFinite(footprint) || !(radiusUv >= 0) || !std::isfinite(radiusUv)) return 1;
+    if (footprint / 2 >= radiusUv) return kWholeDemandWeight;
+    const float share = footprint / 2 / radiusUv * static_cast<float>(kWholeDemandWeight);
+    return static_cast<std::uint32_t>(std::max(share + 0.5f, 1.0f));
+}
+
 float demand(const DemandRule& rule, const DemandPoint& point) noexcept {
     float c = rule.c;
     if (rule.contrastExponent != 0) {

@@ -6,7 +6,7 @@
 //     ... for one pixel in 16, where 0 < share of blockers < 1:
 //     float sigma = stairwellPixelFootprint(dFdx(uv), dFdy(uv));
 //     float texels = stairwellDemand(rule, radiusUv, sigma, contrast, casterWidthUv);
-//     atomicAdd(counts[stairwellDemandCounter(texels)], 1u);
+//     atomicAdd(counts[stairwellDemandCounter(texels)], stairwellDemandWeight(radiusUv, sigma));
 //
 // The counters, as 65 uints, are a DemandHistogram. Without the contrast term they equal those of demand.h wherever
 // the GPU divides and takes roots as IEEE 754 says; elsewhere a demand within a rounding step of a bin's edge may fall
@@ -58,6 +58,14 @@ float stairwellDemand(StairwellDemandRule rule, float radiusUv, float footprintU
         texels = min(texels, rule.pixelBound / footprintUv);
     }
     return texels;
+}
+
+// How much of a shadow's edge the point stands for, in 64ths of a pixel: what its demand counts. A point in a penumbra
+// forty pixels across stands for a fortieth of a pixel of edge. 1 where radius or footprint cannot be used.
+uint stairwellDemandWeight(float radiusUv, float footprintUv) {
+    if (!stairwellPositiveAndFinite(footprintUv) || !(radiusUv >= 0.0f && radiusUv <= kStairwellLargest)) return 1u;
+    if (footprintUv / 2.0f >= radiusUv) return 64u;
+    return uint(max(footprintUv / 2.0f / radiusUv * 64.0f + 0.5f, 1.0f));
 }
 
 // Which counter takes a demand: bin b holds N in (2^(b/4), 2^((b+1)/4)], the first also what is smaller and the last

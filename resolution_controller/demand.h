@@ -8,8 +8,14 @@
 // r -> 0 would ask for an infinite map.
 //
 //     resolution_controller::DemandHistogram histogram;
-//     for (each sampled pixel in penumbra)
-//         histogram.add(demand(c, radiusUv, pixelFootprint(duvDpixel)));
+//     for (each sampled pixel in penumbra) {
+//         const float sigma = pixelFootprint(duvDpixel);
+//         histogram.add(demand(c, radiusUv, sigma), demandWeight(radiusUv, sigma));
+//     }
+//
+// What is seen is the edge of a shadow, so points count by how much of it they stand for: one whose
+// penumbra is forty pixels across counts a fortieth of one at a sharp edge. Counted by area, the
+// widest penumbrae, which ask for the least, would outvote all others.
 //
 // The bins are found from the bits of the float, without a logarithm, so that a GPU that does the
 // same fills the same histogram; from there on there are only integers.
@@ -38,6 +44,15 @@ float pixelFootprint(const UvDerivatives& derivatives) noexcept;
 /// finite. A footprint that is not positive and finite sets no bound.
 float demand(float c, float radiusUv, float footprint, float pixelBound = 1) noexcept;
 
+/// Weight of a point that stands for a pixel of a shadow's edge, and the largest.
+inline constexpr std::uint32_t kWholeDemandWeight = 64;
+
+/// How much of a shadow's edge a point in penumbra stands for, in 64ths of a pixel: 1 pixel over
+/// the penumbra's width across, 2 radiusUv / footprint; rounded, 1 to kWholeDemandWeight. 1
+/// where the footprint is not positive and finite or the radius is NaN, negative or infinite, so
+/// that all points count alike where nothing is known of pixels.
+std::uint32_t demandWeight(float radiusUv, float footprint) noexcept;
+
 /// What a light asks of every point, fixed for a frame; demandRule() of resolution_controller.h
 /// fills it from settings.
 struct DemandRule {
@@ -64,20 +79,17 @@ struct DemandPoint {
 float demand(const DemandRule& rule, const DemandPoint& point) noexcept;
 
 /// log2 histogram of demands: bin b counts N in (2^(b/4), 2^((b+1)/4)]; the first also what is
-/// smaller, the last also what is larger. Laid out as the buffer that a GPU fills.
+/// smaller, the last also what is larger. Points count by their demandWeight(), or all alike.
+/// Laid out as the buffer that a GPU fills; 67 million whole weights fill a counter.
 struct DemandHistogram {
     static constexpr std::size_t kBins = 64;
 
     std::array<std::uint32_t, kBins> counts{};
     std::uint32_t rejected = 0;  ///< demands that were NaN, zero or negative
 
-    constexpr void add(float demandedTexels) noexcept {
+    constexpr void add(float demandedTexels, std::uint32_t weight = 1) noexcept {
         const int bin = binOf(demandedTexels);
-        if (bin < 0) {
-            ++rejected;
-        } else {
-            ++counts[static_cast<std::size_t>(bin)];
-        }
+        (bin < 0 ? rejected : counts[static_cast<std::size_t>(bin)]) += weight;
     }
 
     constexpr DemandHistogram& operator+=(const DemandHistogram& other) noexcept {

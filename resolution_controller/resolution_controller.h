@@ -46,8 +46,9 @@ struct Settings {
     std::int32_t driverMaxSize = 16384;  ///< texels: GL_MAX_TEXTURE_SIZE or the like
     LevelRatio levelRatio = LevelRatio::sqrtTwo;  ///< two: powers of two only
 
-    /// Share of the samples whose demand is met, (0, 1]. 1 is the published maximum rule; below it,
-    /// one contact pixel does not ask for the largest map.
+    /// Share of the samples, by weight, whose demand is met, (0, 1]: with demandWeight() of the
+    /// length of the shadows' edges. 1 is the published maximum rule; below it, one contact pixel
+    /// does not ask for the largest map.
     double percentile = 0.98;
 
     /// A map is lowered when for so many frames with data (>= 0) ...
@@ -157,7 +158,7 @@ struct Decision {
     /// a / (r / c) at the percentile: texel edge over the edge that the study allows. 1 is at its
     /// criterion, above 1 stair-steps are seen more often. 0 before any data.
     double artifactRatio = 0;
-    /// Share of the samples that ask for more than `size`.
+    /// Share of the samples, by weight, that ask for more than `size`.
     double shareAbove = 0;
     /// c / size when a filter asks for more than `size`; else 0.
     double minRadiusUv = 0;

@@ -274,11 +274,15 @@ float stairwell_demand(const stairwell_settings* settings, float radius_uv, floa
                                                          .casterWidthUv = caster_width_uv});
 }
 
-stairwell_status stairwell_histogram_add(stairwell_histogram* histogram,
-                                         float demanded_texels) noexcept {
+uint32_t stairwell_demand_weight(float radius_uv, float footprint) noexcept {
+    return rc::demandWeight(radius_uv, footprint);
+}
+
+stairwell_status stairwell_histogram_add(stairwell_histogram* histogram, float demanded_texels,
+                                         uint32_t weight) noexcept {
     if (!histogram) return STAIRWELL_NULL_ARGUMENT;
     const int bin = rc::DemandHistogram::binOf(demanded_texels);
-    ++(bin < 0 ? histogram->rejected : histogram->counts[bin]);
+    (bin < 0 ? histogram->rejected : histogram->counts[bin]) += weight;
     return STAIRWELL_OK;
 }
 

@@ -152,8 +152,12 @@ float stairwell_pixel_footprint(float dudx, float dvdx, float dudy, float dvdy) 
  * initialised. footprint 0: no bound; contrast 1: full; caster_width_uv 0: none is thin. */
 float stairwell_demand(const stairwell_settings* settings, float radius_uv, float footprint,
                        float contrast, float caster_width_uv) STAIRWELL_NOEXCEPT;
-stairwell_status stairwell_histogram_add(stairwell_histogram* histogram,
-                                         float demanded_texels) STAIRWELL_NOEXCEPT;
+/* How much of a shadow's edge the point stands for, in 64ths of a pixel, 1 to 64; 1 where radius or
+ * footprint cannot be used. */
+uint32_t stairwell_demand_weight(float radius_uv, float footprint) STAIRWELL_NOEXCEPT;
+/* Counts a demand `weight` times; 1 everywhere lets all points count alike. */
+stairwell_status stairwell_histogram_add(stairwell_histogram* histogram, float demanded_texels,
+                                         uint32_t weight) STAIRWELL_NOEXCEPT;
 
 /* ---- Lights ---- */
 

@@ -11,7 +11,8 @@ static void demandOfLamp(const stairwell_settings* settings, int frame,
     memset(histogram, 0, sizeof *histogram);
     for (int pixel = 1; pixel <= 1000; ++pixel) {
         const float radiusUv = 0.00002f * (float)(pixel + frame);
-        stairwell_histogram_add(histogram, stairwell_demand(settings, radiusUv, 1.0f / 2000, 1, 0));
+        stairwell_histogram_add(histogram, stairwell_demand(settings, radiusUv, 1.0f / 2000, 1, 0),
+                                stairwell_demand_weight(radiusUv, 1.0f / 2000));
     }
 }
 

@@ -18,7 +18,8 @@ rc::DemandHistogram demandOfLamp(const rc::Settings& settings, int frame) {
     rc::DemandHistogram histogram;
     for (int pixel = 1; pixel <= 1000; ++pixel) {
         const float radiusUv = 0.00002f * static_cast<float>(pixel + frame);
-        histogram.add(rc::demand(rule, {.radiusUv = radiusUv, .footprint = 1.0f / 2000}));
+        histogram.add(rc::demand(rule, {.radiusUv = radiusUv, .footprint = 1.0f / 2000}),
+                      rc::demandWeight(radiusUv, 1.0f / 2000));
     }
     return histogram;
 }

@@ -77,6 +77,16 @@ TEST(DemandFormula, CountsTheSameInGlslAndInCpp) {
     }
 }
 
+TEST(DemandFormula, WeightIsTheSameInGlslAndInCpp) {
+    Numbers numbers;
+    for (int i = 0; i < 100000; ++i) {
+        const float radius = numbers.next(), footprint = numbers.next();
+        ASSERT_EQ(glsl::stairwellDemandWeight(radius, footprint),
+                  rc::demandWeight(radius, footprint))
+            << radius << ' ' << footprint;
+    }
+}
+
 TEST(DemandFormula, FootprintIsTheSameInGlslAndInCpp) {
     Numbers numbers;
     for (int i = 0; i < 100000; ++i) {
@@ -155,7 +165,8 @@ Counters onTheCpu(renderer::Renderer& frame, const renderer::Technique& techniqu
             if (!between && (wide || !surfaces.changesBeside(x, y))) continue;
             const int bin = rc::DemandHistogram::binOf(
                 rc::demand(rule, {.radiusUv = radius, .footprint = receiver.footprintUv}));
-            ++counters[bin < 0 ? 64 : static_cast<std::size_t>(bin)];
+            counters[bin < 0 ? 64 : static_cast<std::size_t>(bin)] +=
+                rc::demandWeight(wide ? radius : 0, receiver.footprintUv);
         }
     }
     return counters;

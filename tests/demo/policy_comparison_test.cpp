@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "demo/automatic_against_fixed.h"
 #include "demo/speed_error_front.h"
 #include "demo/sweep_difference.h"
 #include "demo/sweep_report.h"
@@ -96,10 +97,26 @@ TEST_F(PolicyComparisonOf, IsTheRatioOfTimesAtEqualRipple) {
     }
 }
 
+// Of one scene with few contour pixels the others make up for any ripple; each for itself does not.
+TEST_F(PolicyComparisonOf, ASceneCannotHideAmongTheOthers) {
+    demo::SweepTable table = sweep({});
+    for (demo::SweepCell& cell : table.cells)
+        if (cell.scene == "large") cell.ripples.back() = 1;
+    const demo::SizingPolicy& fixed = demo::findSizingPolicy("fixed");
+    const auto of = [&](demo::RippleOver over) {
+        return *demo::calibrated(table, fixed, "pcf_disc", over);
+    };
+    EXPECT_EQ(of(demo::RippleOver::eachScene).largest, 1024);
+    EXPECT_EQ(of(demo::RippleOver::allTogether).largest, 512);
+    EXPECT_NEAR(of(demo::RippleOver::allTogether).rippleP95, 52.5 / 255, 1e-9);
+    EXPECT_NEAR(of(demo::RippleOver::allTogether).rippleP95Together, 13.5 / 255, 1e-9);
+}
+
 TEST_F(PolicyComparisonOf, ACheatThatTakesTheTruthsSizeIsCaughtByItsCost) {
     const demo::SweepTable table = sweep({});
     // The largest size everywhere: no ripple at all, and dear.
-    const demo::PolicyResult ours = *demo::calibrated(table, demo::automaticPolicy(), "pcf_disc");
+    const demo::PolicyResult ours =
+        *demo::calibrated(table, demo::automaticPolicy(), "pcf_disc", demo::RippleOver::eachScene);
     EXPECT_LT(table.find("small", 0, "pcf_disc", 2048)->ripples.size(), ours.rippleP95 * 255);
     EXPECT_GT(table.find("small", 0, "pcf_disc", 2048)->frameMs.median, 2 * ours.geometricMeanMs);
     const auto all = demo::speedAndErrors(table, "");
@@ -108,7 +125,7 @@ TEST_F(PolicyComparisonOf, ACheatThatTakesTheTruthsSizeIsCaughtByItsCost) {
 
 TEST_F(PolicyComparisonOf, ABoundOutOfReachGivesWayToTheLeastRippleOfOursAndSaysSo) {
     const demo::SweepTable table = sweep({});
-    const auto all = demo::comparePolicies(table, 0.001);
+    const auto all = demo::comparePolicies(table, demo::RippleOver::eachScene, 0.001);
     // Twice the need, the finest that ours takes: half the ripple.
     EXPECT_NEAR(all[0].bound, 13.5 / 255, 1e-9);
     ASSERT_TRUE(all[0].ours.has_value());
@@ -136,11 +153,14 @@ TEST_F(PolicyComparisonOf, WhatWasNotMeasuredIsNamed) {
 
 TEST_F(PolicyComparisonOf, ErrorsAgainstACoarseReferenceDoNotCount) {
     const demo::SweepTable table = sweep({.reference = 512});
-    EXPECT_FALSE(demo::calibrated(table, demo::automaticPolicy(), "pcf_disc").has_value());
+    EXPECT_FALSE(
+        demo::calibrated(table, demo::automaticPolicy(), "pcf_disc", demo::RippleOver::eachScene)
+            .has_value());
     EXPECT_THAT(demo::evaluate(table, demo::automaticPolicy(), "pcf_disc", 0).missing,
                 HasSubstr("its reference is 512 alone"));
     EXPECT_TRUE(demo::speedAndErrors(table, "").empty());
-    EXPECT_TRUE(demo::calibrated(sweep({.reference = 1024}), demo::automaticPolicy(), "pcf_disc")
+    EXPECT_TRUE(demo::calibrated(sweep({.reference = 1024}), demo::automaticPolicy(), "pcf_disc",
+                                 demo::RippleOver::eachScene)
                     .has_value());
 }
 
@@ -185,6 +205,47 @@ TEST_F(PolicyComparisonOf, ABrokenTechniqueIsTheFirstThingInTheReport) {
     EXPECT_THAT(page, HasSubstr("<svg"));
     EXPECT_TRUE(std::filesystem::exists(last_ / "policies.tsv"));
     EXPECT_TRUE(std::filesystem::exists(last_ / "front.tsv"));
+}
+
+TEST_F(PolicyComparisonOf, TheAutomaticSizeIsHeldAgainstAFixedOneSceneByScene) {
+    const demo::SweepTable table = sweep({});
+    // In the made-up sweep a size takes its edge in ms.
+    std::vector<demo::DirectRow> direct = {{.scene = "small",
+                                            .technique = "pcf_disc",
+                                            .policy = "auto",
+                                            .parameter = "3.47",
+                                            .frameMs = 256,
+                                            .rmse = 0.01,
+                                            .ripples = {0, 19, 0, 1}},
+                                           {.scene = "large",
+                                            .technique = "pcf_disc",
+                                            .policy = "auto",
+                                            .parameter = "3.47",
+                                            .frameMs = 1024,
+                                            .rmse = 0.02,
+                                            .ripples = {20}},
+                                           {.scene = "large",
+                                            .technique = "pcf_disc",
+                                            .policy = "paper",
+                                            .parameter = "3.47",
+                                            .frameMs = 1,
+                                            .rmse = 0.5,
+                                            .ripples = {}}};
+    auto all = demo::automaticAgainstFixed(direct, table, {512, 2048});
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].fixed, 512);
+    EXPECT_THAT(all[0].times, testing::ElementsAre(2, 0.5));
+    EXPECT_NEAR(all[0].geometricMean, 1, 1e-12);
+    EXPECT_NEAR(all[1].geometricMean, 4, 1e-12);  // of 8 and 2
+    EXPECT_EQ(all[1].worstRmse, 0.02);
+    EXPECT_NEAR(all[1].rippleP95, 1.5 / 255, 1e-12);
+    EXPECT_NEAR(all[1].rippleMost, 4.0 / 255, 1e-12);
+
+    direct.erase(direct.begin());
+    all = demo::automaticAgainstFixed(direct, table, {2048});
+    EXPECT_TRUE(std::isnan(all[0].times[0])) << "not drawn there";
+    EXPECT_TRUE(std::isnan(all[0].geometricMean));
+    EXPECT_EQ(all[0].times[1], 2);
 }
 
 TEST_F(PolicyComparisonOf, AFolderWithoutASweepIsAnError) {

@@ -75,8 +75,9 @@ TEST(Sweep, MeasuresEveryCellAndReports) {
     EXPECT_EQ(automatic, 2);
     for (const demo::PolicyComparison& comparison : demo::comparePolicies(table))
         for (const auto& entry : comparison.entries)
-            EXPECT_EQ(entry.result && demo::directResult(direct, table, *entry.result),
-                      entry.result.has_value())
+            EXPECT_EQ(
+                entry.result && demo::directResult(direct, table, *entry.result, comparison.over),
+                entry.result.has_value())
                 << entry.policy->name;
     for (const char* technique : {"pcf_disc", "vsm"})
         EXPECT_TRUE(std::filesystem::exists(
@@ -87,6 +88,17 @@ TEST(Sweep, MeasuresEveryCellAndReports) {
     // Nothing is left to measure.
     const std::string times = records::readWholeFile(folder.path() / "sweep_times.tsv");
     ASSERT_EQ(tests::runProgram("shadow_bench", tinySweep(folder.path())).exitCode, 0);
+    EXPECT_EQ(records::readWholeFile(folder.path() / "sweep_times.tsv"), times);
+
+    // The policies are asked again where their journal is gone, or has other steps.
+    const auto policies = folder.path() / "sweep_policies.tsv";
+    const std::string asked = records::readWholeFile(policies);
+    std::filesystem::remove(policies);
+    ASSERT_EQ(tests::runProgram("shadow_bench", tinySweep(folder.path())).exitCode, 0);
+    EXPECT_EQ(demo::readSweep(folder.path()).policySizes, table.policySizes);
+    records::writeWholeFile(policies, asked.substr(0, asked.rfind(',')) + "\n");
+    ASSERT_EQ(tests::runProgram("shadow_bench", tinySweep(folder.path())).exitCode, 0);
+    EXPECT_EQ(demo::readSweep(folder.path()).policySizes, table.policySizes);
     EXPECT_EQ(records::readWholeFile(folder.path() / "sweep_times.tsv"), times);
 
     // Killed in the middle of the second round's first line of a unit.

@@ -103,7 +103,8 @@ stairwell_light lightFrom(Bytes& in, stairwell_histogram& histogram) {
     light.radius_uv = in.real(0.001 * in.below(100));
     for (int i = in.below(4); i > 0; --i) {
         stairwell_histogram_add(
-            &histogram, static_cast<float>(std::clamp(in.real(100 * in.below(90)), -1e30, 1e30)));
+            &histogram, static_cast<float>(std::clamp(in.real(100 * in.below(90)), -1e30, 1e30)),
+            in.take<std::uint32_t>());
     }
     if (in.below(8) > 0) light.histogram = &histogram;
     if (in.below(4) == 0) light.contrast = in.real(0.1);

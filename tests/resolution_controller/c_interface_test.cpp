@@ -60,7 +60,7 @@ TEST(CInterface, DecidesAsTheLightSetDoes) {
         rc::DemandHistogram same;
         for (int i = 0; i < 20; ++i) {
             const auto n = std::bit_cast<float>(std::uint32_t(rng()));
-            EXPECT_EQ(stairwell_histogram_add(&histogram, n), STAIRWELL_OK);
+            EXPECT_EQ(stairwell_histogram_add(&histogram, n, 1), STAIRWELL_OK);
             same.add(n);
         }
         const double radius = 0.001 * double(1 + rng() % 50);
@@ -106,7 +106,7 @@ TEST(CInterface, RefusesNullEverywhere) {
           stairwell_light_init(nullptr, sizeof(stairwell_light)),
           stairwell_slope_for(nullptr, 0, 0.5, 0, 0, &slope, nullptr),
           stairwell_slope_for(&settings.slope, 0, 0.5, 0, 0, nullptr, nullptr),
-          stairwell_histogram_add(nullptr, 1), stairwell_create(nullptr, 1, &none, nullptr, 0),
+          stairwell_histogram_add(nullptr, 1, 1), stairwell_create(nullptr, 1, &none, nullptr, 0),
           stairwell_create(&settings, 1, nullptr, nullptr, 0),
           stairwell_update(nullptr, &light, 1, nullptr, &d, sizeof d, nullptr),
           stairwell_update(lights.handle, nullptr, 1, nullptr, &d, sizeof d, nullptr),
@@ -273,7 +273,8 @@ TEST(CInterface, AllocatesNothingInAFrame) {
     const stairwell_settings settings = defaults();
     const long before = allocationCount();
     for (int frame = 0; frame < 100; ++frame) {
-        stairwell_histogram_add(&histogram, stairwell_demand(&settings, 0.01f, 0.001f, 1, 0));
+        stairwell_histogram_add(&histogram, stairwell_demand(&settings, 0.01f, 0.001f, 1, 0),
+                                stairwell_demand_weight(0.01f, 0.001f));
         stairwell_update(lights.handle, data.data(), 8, &budget, d.data(), sizeof d[0], nullptr);
     }
     EXPECT_EQ(allocationCount(), before);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -151,6 +152,33 @@ TEST(DemandHistogram, EveryFloatHasABinWhoseEdgeMeetsIt) {
     EXPECT_EQ(rc::DemandHistogram::binOf(std::numeric_limits<float>::denorm_min()), 0);
 }
 
+// An edge of 500 pixels weighs the same whatever its penumbra's width, within the rounding of each
+// point's weight, by a half.
+TEST(DemandWeight, OfAnEdgeIsItsLengthHoweverWideItsPenumbra) {
+    constexpr float kFootprint = 1.0f / 3000;
+    constexpr std::uint64_t kLengthPx = 500;
+    for (const std::uint64_t widthPx : {1u, 2u, 3u, 7u, 16u, 40u}) {
+        const float radiusUv = kFootprint * static_cast<float>(widthPx) / 2;
+        std::uint64_t weight = 0;
+        for (std::uint64_t pixel = 0; pixel < kLengthPx * widthPx; ++pixel)
+            weight += rc::demandWeight(radiusUv, kFootprint);
+        const std::uint64_t whole = kLengthPx * rc::kWholeDemandWeight;
+        EXPECT_NEAR(static_cast<double>(weight), static_cast<double>(whole),
+                    0.5 * static_cast<double>(kLengthPx * widthPx))
+            << widthPx;
+    }
+}
+
+TEST(DemandWeight, IsOneToAWholeAndOneWhereNothingIsKnown) {
+    EXPECT_EQ(rc::demandWeight(0, 0.001f), rc::kWholeDemandWeight) << "a contact is an edge";
+    EXPECT_EQ(rc::demandWeight(0.0001f, 0.001f), rc::kWholeDemandWeight) << "within a pixel";
+    EXPECT_EQ(rc::demandWeight(1, 1e-30f), 1u);
+    for (const float unusable : {0.0f, -1.0f, kNan, kInf})
+        EXPECT_EQ(rc::demandWeight(0.01f, unusable), 1u) << unusable;
+    for (const float unusable : {-1.0f, kNan, kInf})
+        EXPECT_EQ(rc::demandWeight(unusable, 0.001f), 1u) << unusable;
+}
+
 TEST(DemandHistogram, CountsAndMerges) {
     rc::DemandHistogram a, b;
     for (const float n : {100.0f, 101.0f, 5000.0f}) a.add(n);
@@ -160,6 +188,10 @@ TEST(DemandHistogram, CountsAndMerges) {
     EXPECT_EQ(a.rejected, 2u);
     EXPECT_EQ(a.counts[26], 3u) << "(90.5, 107.6]";
     EXPECT_EQ(a.counts[63], 1u);
+    a.add(5000, 64);
+    a.add(kNan, 7);
+    EXPECT_EQ(a.total(), 69u);
+    EXPECT_EQ(a.rejected, 9u);
 }
 
 constexpr rc::DemandHistogram filledAtCompileTime() {

@@ -20,8 +20,8 @@ void main() {
     barrier();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * cell.z + cell.xy;
     if (all(lessThan(pixel, ivec2(view.viewport.xy)))) {
-        float texels = pixelDemand(pixel);
-        if (texels >= 0.0) atomicAdd(groupCounters[stairwellDemandCounter(texels)], 1u);
+        PixelDemand asked = pixelDemand(pixel);
+        if (asked.texels >= 0.0) atomicAdd(groupCounters[stairwellDemandCounter(asked.texels)], asked.weight);
     }
     barrier();
     for (uint i = gl_LocalInvocationIndex; i < uint(STAIRWELL_DEMAND_COUNTERS);

@@ -54,7 +54,7 @@ void main() {
         return;
     }
     if (chosen == VIEW_DEMAND) {
-        float texels = pixelDemand(pixel);
+        float texels = pixelDemand(pixel).texels;
         float place = (log2(max(texels, 1.0)) - demandRange.x) / (demandRange.y - demandRange.x);
         if (texels > 0.0) outColour.rgb = scaleColour(clamp(place, 0.0, 1.0));
         return;

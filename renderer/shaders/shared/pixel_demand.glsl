@@ -45,22 +45,29 @@ float shadowContrast(ivec2 pixel, vec3 position, float gloss) {
     return dot(range, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// In texels; 0 where the formula rejects the radius, -1 where the pixel asks for nothing.
-float pixelDemand(ivec2 pixel) {
+struct PixelDemand {
+    float texels;  // 0 where the formula rejects the radius, -1 where the pixel asks for nothing
+    uint weight;   // of shadow edge, stairwellDemandWeight()
+};
+const PixelDemand kAsksForNothing = PixelDemand(-1.0, 0u);
+
+PixelDemand pixelDemand(ivec2 pixel) {
     vec4 position = texelFetch(positions, pixel, 0);
-    if (position.w == 0.0) return -1.0;
+    if (position.w == 0.0) return kAsksForNothing;
     vec4 plane = texelFetch(planes, pixel, 0);
     ShadowReceiver receiver = shadowReceiver(position.xyz, plane.xyz, view, shadow);
-    if (!receiver.facesLight || !onMap(receiver.uv)) return -1.0;
-    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) return -1.0;
+    if (!receiver.facesLight || !onMap(receiver.uv)) return kAsksForNothing;
+    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) return kAsksForNothing;
     float visibility = texelFetch(visibilities, pixel, 0).x;
     bool between = inPenumbra(visibility);
-    if (!between && !changesBeside(pixel, position.xyz, plane.xyz, visibility)) return -1.0;
+    if (!between && !changesBeside(pixel, position.xyz, plane.xyz, visibility)) return kAsksForNothing;
     float radius = penumbraRadiusUv(depths, receiver, shadow);
-    if (radius < 0.0) return -1.0;
+    if (radius < 0.0) return kAsksForNothing;
     bool wide = hasKernel != 0u && max(radius, shadow.kernel.y) >= receiver.footprintUv;
-    if (wide && !between) return -1.0;
+    if (wide && !between) return kAsksForNothing;
     StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);
     float contrast = rule.z == 0.0 || shadow.towardsLight.w != 0.0 ? 1.0 : shadowContrast(pixel, position.xyz, plane.w);
-    return stairwellDemand(asked, radius, receiver.footprintUv, contrast, 0.0);
+    float texels = stairwellDemand(asked, radius, receiver.footprintUv, contrast, 0.0);
+    // Where the penumbra is narrower than a pixel, or there is none, the pixel is one of the edge.
+    return PixelDemand(texels, stairwellDemandWeight(wide ? radius : 0.0, receiver.footprintUv));
 }
