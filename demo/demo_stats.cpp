@@ -44,6 +44,35 @@ Json slopeJson(const DemoStats& stats) {
             {"notes", stats.slope.notes}};
 }
 
+Json automaticJson(const ChosenResolution& chosen) {
+    return {{"need", chosen.need},
+            {"min_radius_uv", chosen.minRadiusUv},
+            {"share_above", chosen.shareAbove},
+            {"artifact_ratio", chosen.artifactRatio},
+            {"detail_texels", chosen.detailTexels}};
+}
+
+Json mapsJson(const DemoStats& stats) {
+    Json json = Json::array();
+    for (std::size_t map = 0; map < stats.maps.size(); ++map) {
+        const ChosenResolution& chosen = stats.maps[map];
+        Json own = {{"map", stats.mapNames.at(map)},
+                    {"resolution", chosen.resolution},
+                    {"reason", chosen.reason}};
+        if (chosen.automatic) own.update(automaticJson(chosen));
+        json.push_back(own);
+    }
+    return json;
+}
+
+Json budgetJson(const std::optional<SharedBudget>& budget) {
+    if (!budget) return {};
+    return {{"texels", budget->texels},
+            {"wanted_texels", budget->wanted},
+            {"used_texels", budget->used},
+            {"feasible", budget->feasible}};
+}
+
 Json passesJson(const DemoStats& stats) {
     Json json = Json::object();
     for (const renderer::Pass pass : renderer::kAllPasses) {
@@ -57,7 +86,7 @@ Json passesJson(const DemoStats& stats) {
 
 void writeStats(const std::filesystem::path& file, const DemoStats& stats) {
     Json json;
-    json["schema"] = "stairwell-demo-stats 1.0";
+    json["schema"] = "stairwell-demo-stats 1.1";
     json["context"] = stats.context;
     json["scene"] = stats.scene;
     json["technique"] = std::string(stats.technique->name);
@@ -69,12 +98,11 @@ void writeStats(const std::filesystem::path& file, const DemoStats& stats) {
     json["resolution_mode"] = stats.chosen.automatic ? "auto" : "fixed";
     json["reason"] = stats.chosen.reason;
     if (stats.chosen.automatic) {
-        json["need"] = stats.chosen.need;
-        json["min_radius_uv"] = stats.chosen.minRadiusUv;
-        json["share_above"] = stats.chosen.shareAbove;
-        json["artifact_ratio"] = stats.chosen.artifactRatio;
+        json.update(automaticJson(stats.chosen));
         json["settling_frames"] = stats.settlingFrames;
     }
+    json["maps"] = mapsJson(stats);
+    json["budget"] = budgetJson(stats.budget);
     json["slope"] = slopeJson(stats);
     json["timing"] = stats.timing;
     json["frame_ms"] = toJson(stats.wholeFrameMs);

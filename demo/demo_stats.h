@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What `shadow_demo --stats` writes: the context block, what was rendered, which N was chosen and
-// why, and what it took.
+// What `shadow_demo --stats` writes: the context block, what was rendered, which N was chosen for
+// each map and why, and what it took.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,10 @@ struct DemoStats {
     const renderer::Technique* technique = nullptr;
     renderer::ParameterValues parameters{};
     Softness softness;
-    ChosenResolution chosen;
+    ChosenResolution chosen;  ///< of the sun's map, or its first cascade's
+    std::vector<ChosenResolution> maps;
+    std::vector<std::string> mapNames;  ///< one for each of them
+    std::optional<SharedBudget> budget;
     int settlingFrames = 0;
     LoadedSlope slope;
     double mapExtentM = 0;

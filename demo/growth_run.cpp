@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <map>
 #include <memory>
 #include <set>
@@ -67,20 +66,6 @@ std::string sourceOf(const GrowthSettings& settings, std::size_t own, const Visi
     return settings.scene + ":triangles=" + std::to_string(asked);
 }
 
-/// Spots in a ring over the casters, all of them towards their middle.
-std::vector<renderer::Lamp> ringOfSpots(std::size_t count, const renderer::Bounds& casters) {
-    const glm::vec3 middle = 0.5F * (casters.low + casters.high);
-    const float radius = glm::distance(casters.low, casters.high);
-    std::vector<renderer::Lamp> lamps(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const float angle =
-            glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(count);
-        lamps[i].position = middle + radius * glm::vec3(std::sin(angle), 1, std::cos(angle));
-        lamps[i].target = middle;
-    }
-    return lamps;
-}
-
 class GrowthRun {
   public:
     GrowthRun(const renderer::GlInfo& info, const GrowthSettings& settings,
@@ -124,7 +109,7 @@ class GrowthRun {
         const std::size_t lamps =
             visit.axis == GrowthAxis::lights ? static_cast<std::size_t>(visit.value) - 1 : 0;
         if (frame_->lights() != lamps + 1)
-            frame_->setLamps(ringOfSpots(lamps, frame_->scene().casters));
+            frame_->setLamps(renderer::ringOfSpots(lamps, frame_->scene().casters));
         return *frame_;
     }
 

@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 
 #include "demo/demo_stats.h"
 #include "demo/frame_writer.h"
+#include "demo/map_names.h"
 #include "demo/picture.h"
 #include "demo/viewer.h"
 #include "demo/viewer_window.h"
@@ -23,6 +25,7 @@ struct Options {
     std::vector<std::string> parameters;
     std::optional<double> radiusM, radiusUv, percentile;
     std::optional<int> compareWith, crossFade;
+    std::optional<std::int64_t> budgetTexels;
     std::optional<float> gain, split;
     demo::SlopeOptions slope;
     std::optional<std::filesystem::path> state, shaders;
@@ -30,13 +33,14 @@ struct Options {
     std::optional<int> frames;
     int width = 1280, height = 720;
     int samples = 2;
-    std::optional<std::filesystem::path> screenshot, stats, sequence, writeFrames;
+    std::optional<std::filesystem::path> screenshot, stats, sequence, writeFrames, trace, replay;
     int edge = 600;
     bool listTechniques = false, listScenes = false;
     std::vector<std::string> command;
 };
 
 constexpr int kHeadlessFrames = 10;
+constexpr std::size_t kTraceBytes = 64U << 20U;  // a map takes some 400 bytes a frame
 
 bool inWindow(const Options& options) {
     return !options.headless && !options.writeFrames;
@@ -125,6 +129,7 @@ demo::ViewerState stateOf(const Options& options) {
     if (options.slope.people) state.audience.people = *options.slope.people;
     state.percentile = options.percentile.value_or(state.percentile);
     state.crossFadeFrames = options.crossFade.value_or(state.crossFadeFrames);
+    if (options.budgetTexels) state.budgetTexels = options.budgetTexels;
     if (options.view) state.view = demo::parseView(*options.view, "--view");
     if (options.path) state.path = demo::parsePath(*options.path, "--path");
     state.compareWith = options.compareWith.value_or(state.compareWith);
@@ -156,6 +161,9 @@ void report(const Options& options, const renderer::GlInfo& info, demo::Viewer& 
     stats.wholeFrameMs = viewer.run().timeWholeFrames(frames);
     stats.passesMs = viewer.run().timePasses(frames);
     stats.chosen = viewer.run().chosen();
+    stats.maps = viewer.run().maps();
+    stats.mapNames = demo::mapNames(frame.lightViews());
+    stats.budget = viewer.run().budget();
     stats.mapBytes = frame.mapBytes();
     stats.targetBytes = frame.targetBytes();
     stats.triangles = frame.triangles();
@@ -165,6 +173,40 @@ void report(const Options& options, const renderer::GlInfo& info, demo::Viewer& 
                 std::string(stats.technique->name).c_str(), stats.chosen.resolution,
                 stats.chosen.automatic ? "auto: " : "", stats.chosen.reason.c_str(),
                 stats.wholeFrameMs.median, stats.wholeFrameMs.p25, stats.wholeFrameMs.p75);
+    if (stats.maps.size() > 1 && stats.chosen.automatic)
+        for (std::size_t map = 0; map < stats.maps.size(); ++map)
+            std::printf("  %-16s N = %d (%s), artifact ratio %.2f\n", stats.mapNames[map].c_str(),
+                        stats.maps[map].resolution, stats.maps[map].reason.c_str(),
+                        stats.maps[map].artifactRatio);
+    if (stats.budget)
+        std::printf("  budget: %lld texels, used %llu, wanted %llu%s\n",
+                    static_cast<long long>(stats.budget->texels),
+                    static_cast<unsigned long long>(stats.budget->used),
+                    static_cast<unsigned long long>(stats.budget->wanted),
+                    stats.budget->feasible ? "" : "; even the smallest sizes take more");
+}
+
+void writeTrace(const Options& options, const demo::Viewer& viewer) {
+    if (!options.trace) return;
+    const resolution_controller::TraceWriter& trace = viewer.run().trace().value();
+    if (trace.frames() == 0)
+        throw std::invalid_argument("--trace: nothing was recorded, since no size was automatic");
+    records::writeWholeFile(*options.trace, {reinterpret_cast<const char*>(trace.bytes().data()),
+                                             trace.bytes().size()});
+    if (trace.lost() > 0)
+        std::fprintf(stderr,
+                     "shadow_demo: note: %s holds the first %llu frames, not the last %llu\n",
+                     options.trace->c_str(), static_cast<unsigned long long>(trace.frames()),
+                     static_cast<unsigned long long>(trace.lost()));
+}
+
+void replayTrace(const std::filesystem::path& file) {
+    const std::string bytes = records::readWholeFile(file);
+    const resolution_controller::ReplayReport report =
+        resolution_controller::replay(std::as_bytes(std::span(bytes)));
+    if (!report.same) throw std::runtime_error(file.string() + ": " + report.problem);
+    std::printf("%s: %llu frames, every decision the same\n", file.c_str(),
+                static_cast<unsigned long long>(report.frames));
 }
 
 /// The path once round as numbered pictures.
@@ -211,6 +253,7 @@ void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
 void demonstrate(const Options& options) {
     if (options.listTechniques) return listTechniques();
     if (options.listScenes) return listScenes();
+    if (options.replay) return replayTrace(*options.replay);
     if (options.frames && *options.frames < 1)
         throw std::invalid_argument("--frames is " + std::to_string(*options.frames) +
                                     ", must be at least 1");
@@ -235,19 +278,25 @@ void demonstrate(const Options& options) {
         const renderer::HeadlessContext context;
         demo::Viewer viewer(context.info(), state, options.slope.file, options.width,
                             options.height, shaders);
+        if (options.trace) viewer.run().startTrace(kTraceBytes);
         const int settlingFrames = viewer.settle();
-        if (options.sequence) return writeSequence(options, viewer);
-        report(options, context.info(), viewer, settlingFrames);
+        if (options.sequence)
+            writeSequence(options, viewer);
+        else
+            report(options, context.info(), viewer, settlingFrames);
+        writeTrace(options, viewer);
         if (options.state) demo::writeViewerState(*options.state, viewer.state());
         return;
     }
     renderer::Window window("shadow_demo", options.width, options.height);
     demo::Viewer viewer(window.info(), state, options.slope.file, options.width, options.height,
                         shaders);
+    if (options.trace) viewer.run().startTrace(kTraceBytes);
     showViewer(window, viewer,
                {.frames = options.frames.value_or(0),
                 .pictureFolder = ".",
                 .shaderFolder = options.shaders});
+    writeTrace(options, viewer);
     if (options.stats || options.screenshot) {
         Options last = options;
         last.frames = kHeadlessFrames;
@@ -275,9 +324,10 @@ int main(int argc, char** argv) {
     Options options;
     options.command.assign(argv, argv + argc);
     app.add_option("--scene", options.scene,
-                   "built-in scene (see --list-scenes), NAME:triangles=COUNT:cascades=COUNT\n"
-                   "for one with more triangles and several maps of the sun, or a model file "
-                   "(glTF, OBJ, PLY, ...); default: yard");
+                   "built-in scene (see --list-scenes), "
+                   "NAME:triangles=COUNT:cascades=COUNT:lamps=COUNT for one with more triangles, "
+                   "several maps of the sun and more lamps, or a model file (glTF, OBJ, PLY, ...); "
+                   "default: yard");
     app.add_option("--technique", options.technique,
                    "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,
@@ -294,6 +344,10 @@ int main(int argc, char** argv) {
                    "1; default: 0.98");
     app.add_option("--cross-fade", options.crossFade,
                    "frames over which a change of the automatic size is faded; default: 8");
+    app.add_option("--budget-texels", options.budgetTexels,
+                   "texels that the automatic sizes of all maps take together at most: lamps and "
+                   "cascades share them so that the worst artifact is as small as it can be; "
+                   "default: no budget");
     app.add_option("--view", options.view,
                    "picture, split, difference, demand, penumbra or texels; default: picture");
     app.add_option("--compare", options.compareWith,
@@ -320,6 +374,11 @@ int main(int argc, char** argv) {
     app.add_option("--samples", options.samples, "samples along a pixel's edge in the screenshot")
         ->capture_default_str();
     app.add_option("--stats", options.stats, "JSON file to write at the end");
+    app.add_option("--trace", options.trace,
+                   "file for what the automatic sizes were chosen by, frame by frame, for a bug "
+                   "report; --replay reads it");
+    app.add_option("--replay", options.replay,
+                   "trace whose decisions are made again; names the first that differs");
     app.add_option("--write-frames", options.writeFrames,
                    "folder for a study's frames of the scene, without a window: maps of many sizes "
                    "at one softness, each beside a converged one, and their manifest");

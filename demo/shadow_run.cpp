@@ -24,8 +24,15 @@ rc::Settings sizingOf(const ShadowRun::Settings& settings, const renderer::GlInf
 
 // The controller lowers after 45 frames by default; an orbiting camera is not waited for.
 constexpr int kMostSettlingFrames = 64;
-// Frames from one tile of the detail probe to the next: a tile costs about 4 % of a frame.
-constexpr int kFramesPerTile = 8;
+// Frames from one tile of the detail probe to the next, of one map: a tile costs about 4 % of a
+// frame that has one.
+constexpr std::size_t kFramesPerTile = 8;
+// What one of several maps is kept at while no penumbra of it is in view, so that the texels are
+// there for the others. A shadow that comes into view must show on it to ask for more: what is too
+// wide for the detail probe covers half a texel or more.
+constexpr int kUnseenTexels = 256;
+static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
+              renderer::DetailProbe::kFineEdge);
 
 rc::DemandHistogram histogramOf(const renderer::DemandPass::Reading& reading) {
     static_assert(sizeof reading.counters == sizeof(rc::DemandHistogram));
@@ -33,6 +40,18 @@ rc::DemandHistogram histogramOf(const renderer::DemandPass::Reading& reading) {
     std::copy_n(reading.counters.begin(), histogram.counts.size(), histogram.counts.begin());
     histogram.rejected = reading.counters.back();
     return histogram;
+}
+
+ChosenResolution chosenFrom(const rc::Decision& choice, const rc::Frame& about) {
+    return {.resolution = choice.size,
+            .automatic = true,
+            .reason = rc::text(choice.reason),
+            .need = choice.need,
+            .minRadiusUv = choice.minRadiusUv,
+            .shareAbove = choice.shareAbove,
+            .artifactRatio = choice.artifactRatio,
+            .detailTexels = about.detailTexels,
+            .fadeWeight = choice.fadeWeight};
 }
 
 }  // namespace
@@ -73,7 +92,11 @@ ShadowRun::ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info,
 }
 
 void ShadowRun::change(const Settings& settings) {
+    if (settings.budgetTexels && *settings.budgetTexels < 1)
+        throw std::invalid_argument("budget is " + std::to_string(*settings.budgetTexels) +
+                                    " texels, must be at least 1");
     renderer::FrameSettings next = frameSettings_;
+    next.maps.clear();
     next.technique = settings.technique;
     next.parameters = settings.parameters;
     next.radiusUv = static_cast<float>(settings.radiusUv);
@@ -83,12 +106,39 @@ void ShadowRun::change(const Settings& settings) {
         next.fadeWeight = 1;
     }
     next.validate(info_);
+    if (settings.technique != nullptr) demand_.prepare(*settings.technique);
     if (const std::string problem = controller_.reconfigure(sizingOf(settings, info_));
         !problem.empty())
         throw std::invalid_argument(problem);
+    if (lights_)
+        for (std::size_t map = 0; map < lights_->count(); ++map) {
+            if (lights_->light(map).settings() == controller_.settings()) continue;
+            lights_->reconfigure(map, controller_.settings());
+            if (trace_) trace_->reconfigured(map, controller_.settings());
+        }
     settings_ = settings;
     frameSettings_ = next;
-    if (settings.resolution) chosen_ = {.resolution = *settings.resolution, .reason = "fixed"};
+    if (settings.resolution)
+        chosen_.assign(1, {.resolution = *settings.resolution, .reason = "fixed"});
+}
+
+void ShadowRun::reload(const renderer::ShaderLibrary& shaders) {
+    const renderer::ShaderLibrary last = frame_.shaders();
+    try {
+        demand_.reload(shaders);
+        detail_.reload(shaders);
+        frame_.reload(shaders);
+    } catch (const std::runtime_error&) {
+        demand_.reload(last);
+        detail_.reload(last);
+        throw;
+    }
+}
+
+void ShadowRun::startTrace(std::size_t bytes) {
+    traceBytes_.assign(bytes, {});
+    trace_.emplace(traceBytes_);
+    if (lights_) trace_->begin(*lights_);
 }
 
 renderer::DemandRule ShadowRun::demandRule() const {
@@ -101,31 +151,89 @@ void ShadowRun::step(renderer::PassClock* clock, bool cut) {
 }
 
 void ShadowRun::draw(renderer::PassClock* clock, View view) {
-    if (!settings_.resolution) {
-        // What joins renderer and controller (docs/engines.md shows these lines): an earlier
-        // frame's demand chooses this frame's size.
-        const auto reading = demand_.newest();
-        rc::Frame about{.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels()};
-        if (reading && view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
-        const rc::Decision choice =
-            reading ? controller_.update(histogramOf(*reading), about) : controller_.hold(about);
-        frameSettings_.resolution = choice.size;
-        frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
-        frameSettings_.fadeFrom = choice.fadeFromSize;
-        frameSettings_.fadeWeight = static_cast<float>(choice.fadeWeight);
-
-        chosen_ = {.resolution = choice.size,
-                   .automatic = true,
-                   .reason = rc::text(choice.reason),
-                   .need = choice.need,
-                   .minRadiusUv = choice.minRadiusUv,
-                   .shareAbove = choice.shareAbove,
-                   .artifactRatio = choice.artifactRatio,
-                   .detailTexels = about.detailTexels,
-                   .fadeWeight = choice.fadeWeight};
-    }
+    const std::size_t maps = frame_.lightViews().size();
+    frameSettings_.maps.clear();
+    budget_.reset();
+    if (settings_.resolution)
+        chosen_.assign(maps, {.resolution = *settings_.resolution, .reason = "fixed"});
+    else if (maps > 1 || settings_.budgetTexels || trace_)
+        chooseTogether(view);
+    else
+        chooseAlone(view);
     frame_.render(frameSettings_, clock);
     if (!settings_.resolution) ask(clock);
+}
+
+void ShadowRun::chooseAlone(View view) {
+    if (lights_) {
+        controller_ = rc::ResolutionController(controller_.settings(), lights_->light(0).state());
+        lights_.reset();
+    }
+    // What joins renderer and controller (docs/engines.md shows these lines): an earlier frame's
+    // demand chooses this frame's size.
+    const auto reading = demand_.newest();
+    rc::Frame about{.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels()};
+    if (reading && view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
+    const rc::Decision choice =
+        reading ? controller_.update(histogramOf(*reading), about) : controller_.hold(about);
+    frameSettings_.resolution = choice.size;
+    frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
+    frameSettings_.fadeFrom = choice.fadeFromSize;
+    frameSettings_.fadeWeight = static_cast<float>(choice.fadeWeight);
+    chosen_.assign(1, chosenFrom(choice, about));
+}
+
+void ShadowRun::chooseTogether(View view) {
+    const std::size_t maps = frame_.lightViews().size();
+    if (!lights_ || lights_->count() != maps) {
+        const rc::ControllerState sun = lights_ ? lights_->light(0).state() : controller_.state();
+        lights_.emplace(std::vector<rc::Settings>(maps, controller_.settings()));
+        lights_->restore(0, sun, {.texels = sun.last.need});
+        if (trace_) trace_->begin(*lights_);
+    }
+    std::vector<rc::DemandHistogram> histograms(maps);
+    std::vector<rc::LightData> data(maps);
+    for (std::size_t map = 0; map < maps; ++map) {
+        rc::Frame& about = data[map].frame;
+        about = {.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels(map)};
+        const auto reading = demand_.newest(map);
+        if (!reading) continue;
+        if (view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
+        histograms[map] = histogramOf(*reading);
+        const bool seen = histograms[map].total() > 0 || histograms[map].rejected > 0;
+        data[map].kind = seen ? rc::LightData::Kind::histogram : rc::LightData::Kind::radius;
+        data[map].histogram = &histograms[map];
+        data[map].radiusUv = settings_.slope.c / kUnseenTexels;
+    }
+    std::vector<rc::Decision> choices(maps);
+    const rc::LightSummary summary =
+        lights_->update(data, choices, {.texels = settings_.budgetTexels});
+    if (trace_) trace_->frame(data, {.texels = settings_.budgetTexels}, choices);
+    if (settings_.budgetTexels)
+        budget_ = {.texels = *settings_.budgetTexels,
+                   .wanted = summary.budget.wanted,
+                   .used = summary.budget.used,
+                   .feasible = summary.budget.feasible};
+
+    frameSettings_.resolution = choices.front().size;
+    frameSettings_.minRadiusUv = 0;
+    frameSettings_.fadeWeight = 1;
+    std::vector<renderer::MapSettings> settings(maps);
+    chosen_.clear();
+    for (std::size_t map = 0; map < maps; ++map) {
+        const rc::Decision& choice = choices[map];
+        settings[map] = {.resolution = choice.size,
+                         .radiusUv = frame_.mapSettings(frameSettings_, map).radiusUv,
+                         .minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0)),
+                         .fadeWeight = static_cast<float>(choice.fadeWeight),
+                         .fadeFrom = choice.fadeFromSize};
+        ChosenResolution& chosen = chosen_.emplace_back(chosenFrom(choice, data[map].frame));
+        if (data[map].kind != rc::LightData::Kind::radius) continue;
+        chosen.need = 0;
+        chosen.artifactRatio = chosen.shareAbove = 0;
+        if (choice.reason == rc::Reason::demandMet) chosen.reason = "no penumbra of it in view";
+    }
+    frameSettings_.maps = std::move(settings);
 }
 
 void ShadowRun::ask(renderer::PassClock* clock) {
@@ -134,28 +242,36 @@ void ShadowRun::ask(renderer::PassClock* clock) {
         detail_.forget();
         detailOf_ = frame_.scene().name;
     }
-    if (framesToDetail_-- == 0) {
-        detail_.submit(frame_, demandRule());
-        framesToDetail_ = kFramesPerTile - 1;
+    const std::size_t maps = frame_.lightViews().size();
+    if (framesToDetail_-- <= 0) {
+        detail_.submit(frame_, demandRule(), detailTurn_++ % maps);
+        framesToDetail_ = static_cast<int>(std::max<std::size_t>(kFramesPerTile / maps, 1)) - 1;
     }
     demand_.submit(frame_, demandRule());
+    for (std::size_t map = 1; map < maps; ++map) demand_.submit(frame_, demandRule(), nullptr, map);
     if (clock != nullptr) clock->end(renderer::Pass::demand);
 }
 
 int ShadowRun::settle() {
     draw(nullptr, View::another);
     if (settings_.resolution) return 1;
-    detail_.submitAll(frame_, demandRule());
+    for (std::size_t map = 0; map < chosen_.size(); ++map)
+        detail_.submitAll(frame_, demandRule(), map);
+    const auto asksForNothing = [&] {
+        return std::ranges::all_of(chosen_, [](const auto& map) { return map.need == 0; });
+    };
     // The map's first sizes are the way to the right one, not sizes that were shown, so nothing
     // waits to be lowered from them.
     constexpr int kUnseenFrames = 4, kQuietFrames = 4;
     int frames = 1;
     for (int quiet = 0; quiet < kQuietFrames && frames < kMostSettlingFrames; ++frames) {
-        const int before = chosen_.resolution;
+        const std::vector<ChosenResolution> before = chosen_;
         glFinish();  // so that every frame has the demand of the one before, on any machine
         draw(nullptr, frames < kUnseenFrames ? View::sameUnseen : View::goesOn);
-        quiet = chosen_.resolution == before && chosen_.need > 0 ? quiet + 1 : 0;
-        if (chosen_.need == 0 && frames > 2) break;  // nothing to go by in this view
+        const bool same = std::ranges::equal(chosen_, before, {}, &ChosenResolution::resolution,
+                                             &ChosenResolution::resolution);
+        quiet = same && !asksForNothing() ? quiet + 1 : 0;
+        if (asksForNothing() && frames > 2) break;  // nothing to go by in this view
     }
     return frames;
 }

@@ -3,15 +3,19 @@
 // that the controller picks. The place where renderer and controller meet; neither knows the other.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "demo/spread.h"
 #include "renderer/demand_pass.h"
 #include "renderer/detail_probe.h"
 #include "renderer/renderer.h"
+#include "resolution_controller/light_set.h"
 #include "resolution_controller/resolution_controller.h"
+#include "resolution_controller/trace.h"
 
 namespace demo {
 
@@ -32,7 +36,7 @@ struct Softness {
 Softness chooseSoftness(const renderer::Renderer& frame, std::optional<double> radiusM,
                         std::optional<double> radiusUv);
 
-/// N, and why.
+/// N of one map, and why.
 struct ChosenResolution {
     int resolution = 0;
     bool automatic = false;
@@ -46,6 +50,14 @@ struct ChosenResolution {
     double fadeWeight = 1;  ///< below 1 while a change of size is faded
 };
 
+/// How the maps of a frame share a budget, in texels.
+struct SharedBudget {
+    std::int64_t texels = 0;   ///< for all maps together
+    std::uint64_t wanted = 0;  ///< what they would take without it
+    std::uint64_t used = 0;
+    bool feasible = true;  ///< false: even the smallest sizes take more
+};
+
 class ShadowRun {
   public:
     struct Settings {
@@ -57,14 +69,28 @@ class ShadowRun {
         /// Of the automatic size, but for slope and driver's limit, which are those above and the
         /// context's.
         resolution_controller::Settings sizing = {};
+        /// For the automatic sizes of all maps together, at least 1; absent: no budget. What a fade
+        /// still draws of older maps comes on top.
+        std::optional<std::int64_t> budgetTexels = {};
     };
 
     /// Throws std::invalid_argument for settings that renderer or controller refuse.
     ShadowRun(renderer::Renderer& frame, const renderer::GlInfo& info, const Settings& settings);
 
     /// Other settings from the next frame on; an automatic size goes on from where it is. Throws as
-    /// the constructor does, and then nothing has changed.
+    /// the constructor does, std::runtime_error for shaders that do not compile, and then nothing
+    /// has changed.
     void change(const Settings& settings);
+    /// Takes these shaders for the frame and for what chooses its size. Throws std::runtime_error
+    /// where one that has been used does not compile, and then the last good ones stay.
+    void reload(const renderer::ShaderLibrary& shaders);
+
+    /// From here on, what the automatic sizes are chosen by and what they come to is recorded
+    /// (resolution_controller/trace.h), as many frames as so many bytes hold. A frame with another
+    /// number of maps begins the record anew.
+    void startTrace(std::size_t bytes);
+    /// The record so far; absent before startTrace().
+    const std::optional<resolution_controller::TraceWriter>& trace() const { return trace_; }
 
     /// Draws the next frame. `cut`: the view has nothing to do with the one before, so an automatic
     /// size moves at once, downwards too.
@@ -74,7 +100,12 @@ class ShadowRun {
 
     /// What the pixels are asked with.
     renderer::DemandRule demandRule() const;
-    const ChosenResolution& chosen() const { return chosen_; }
+    /// Of the sun's map, or its first cascade's.
+    const ChosenResolution& chosen() const { return chosen_.front(); }
+    /// Of all maps of the frame drawn last, in the order of Renderer::lightViews().
+    const std::vector<ChosenResolution>& maps() const { return chosen_; }
+    /// Of the frame drawn last; absent where its sizes are fixed or have no budget.
+    const std::optional<SharedBudget>& budget() const { return budget_; }
     const renderer::FrameSettings& frameSettings() const { return frameSettings_; }
 
     /// Whole frames, each finished before the next begins; nothing waits inside one.
@@ -94,6 +125,9 @@ class ShadowRun {
     /// nothing was shown yet.
     enum class View { goesOn, another, sameUnseen };
     void draw(renderer::PassClock* clock, View view);
+    /// This frame's size, or sizes, from the demand of earlier ones.
+    void chooseAlone(View view);
+    void chooseTogether(View view);
     /// What the frame's pixels want of the next map.
     void ask(renderer::PassClock* clock);
 
@@ -106,7 +140,13 @@ class ShadowRun {
     renderer::DetailProbe detail_;
     std::string detailOf_;  // the scene that the probe looked at
     int framesToDetail_ = 0;
-    ChosenResolution chosen_;
+    std::size_t detailTurn_ = 0;
+    /// In place of controller_ where there are several maps, a budget or a trace.
+    std::optional<resolution_controller::LightSet> lights_;
+    std::vector<std::byte> traceBytes_;
+    std::optional<resolution_controller::TraceWriter> trace_;
+    std::vector<ChosenResolution> chosen_ = std::vector<ChosenResolution>(1);
+    std::optional<SharedBudget> budget_;
 };
 
 }  // namespace demo

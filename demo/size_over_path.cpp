@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace demo {
 namespace {
@@ -37,9 +38,10 @@ double squaredChange(const renderer::FloatImage& from, const renderer::FloatImag
 }
 
 struct Change {
-    int frame;    // the later one of the two
-    bool ofSize;  // a change of size shows in it
-    double squared;
+    int frame;       // the later one of the two
+    bool ofSize;     // a change of size shows in it
+    int from, to;    // sizes of the sun's map that show in it
+    double squared;  // of visibility
 };
 
 }  // namespace
@@ -59,53 +61,68 @@ SizeOverPath sizeOverPath(renderer::Renderer& frame, const renderer::GlInfo& inf
     SizeOverPath result;
     std::vector<Change> changes;
     renderer::FloatImage before;
-    int lastLowering = -1;
+    std::vector<int> lastLowering(run.maps().size(), -1);
     bool fading = false;
+    int from = run.chosen().resolution;
     for (int i = 0; i < settings.frames; ++i) {
-        const int last = run.chosen().resolution;
+        const std::vector<ChosenResolution> last = run.maps();
         goTo(i);
         run.change(shown);
         run.step();
         glFinish();  // so that every frame has the demand of the one before, on any machine
-        const ChosenResolution& now = run.chosen();
-        result.sizes.push_back(now.resolution);
-        result.largestArtifactRatio = std::max(result.largestArtifactRatio, now.artifactRatio);
-        if (now.resolution > last) ++result.raises;
-        if (now.resolution < last) {
+        result.sizes.push_back(run.chosen().resolution);
+        bool changed = false, fades = false;
+        for (std::size_t map = 0; map < last.size(); ++map) {
+            const ChosenResolution& now = run.maps().at(map);
+            result.largestArtifactRatio = std::max(result.largestArtifactRatio, now.artifactRatio);
+            changed |= now.resolution != last[map].resolution;
+            fades |= now.fadeWeight < 1;
+            if (now.resolution > last[map].resolution) ++result.raises;
+            if (now.resolution >= last[map].resolution) continue;
             ++result.lowerings;
-            if (lastLowering >= 0 && (result.leastFramesBetweenLowerings == 0 ||
-                                      i - lastLowering < result.leastFramesBetweenLowerings))
-                result.leastFramesBetweenLowerings = i - lastLowering;
-            lastLowering = i;
+            const int previous = std::exchange(lastLowering[map], i);
+            if (previous >= 0 && (result.leastFramesBetweenLowerings == 0 ||
+                                  i - previous < result.leastFramesBetweenLowerings))
+                result.leastFramesBetweenLowerings = i - previous;
         }
         renderer::FloatImage visibility = frame.readVisibility();
         // The last step of a fade is one from a mixture to the new map alone.
-        const bool shows = now.resolution != last || fading || now.fadeWeight < 1;
-        fading = now.fadeWeight < 1;
-        if (i > 0) changes.push_back({i, shows, squaredChange(before, visibility)});
+        const bool shows = changed || fading || fades;
+        fading = fades;
+        if (changed || !shows) from = last.front().resolution;
+        if (i > 0)
+            changes.push_back(
+                {i, shows, from, result.sizes.back(), squaredChange(before, visibility)});
         before = std::move(visibility);
     }
 
     // What the motion itself changes: of every changing frame, and of some others.
     renderer::FrameSettings compared = run.frameSettings();
-    compared.resolution = settings.comparedN;
+    compared.maps.clear();
     compared.minRadiusUv = 0;
     compared.fadeWeight = 1;
     compared.lit = false;
-    const auto visibilityAt = [&](int i) {
+    const auto visibilityAt = [&](int i, int n) {
         goTo(i);
+        compared.resolution = n;
         compared.radiusUv = static_cast<float>(shown.radiusUv);
         frame.render(compared);
         return frame.readVisibility();
     };
+    const auto motionAt = [&](int i, int n) {
+        return std::max(squaredChange(visibilityAt(i - 1, n), visibilityAt(i, n)), 1e-12);
+    };
     constexpr int kEvery = 16;
     for (const Change& change : changes) {
         if (!change.ofSize && change.frame % kEvery != 0) continue;
-        const double motion =
-            squaredChange(visibilityAt(change.frame - 1), visibilityAt(change.frame));
-        const double ratio = std::sqrt(change.squared / std::max(motion, 1e-12));
+        const double ratio = std::sqrt(change.squared / motionAt(change.frame, settings.comparedN));
         double& worst = change.ofSize ? result.worstJump : result.worstBetween;
         worst = std::max(worst, ratio);
+        if (!change.ofSize) continue;
+        const double own =
+            std::max(motionAt(change.frame, change.from), motionAt(change.frame, change.to));
+        result.worstJumpOverOwn =
+            std::max(result.worstJumpOverOwn, std::sqrt(change.squared / own));
     }
     goTo(settings.frames - 1);
     return result;

@@ -19,14 +19,17 @@ struct PathSettings {
 };
 
 struct SizeOverPath {
-    std::vector<int> sizes;  ///< one for each frame
-    int raises = 0, lowerings = 0;
-    int leastFramesBetweenLowerings = 0;  ///< 0 for fewer than two of them
-    /// Largest, over the frames in which a change of size shows, of RMS change of visibility from
-    /// frame to frame over that of the map with comparedN in the same two frames. 0 where nothing
-    /// changed.
+    std::vector<int> sizes;               ///< of the sun's map, one for each frame
+    int raises = 0, lowerings = 0;        ///< of all maps
+    int leastFramesBetweenLowerings = 0;  ///< of one map; 0 for fewer than two of them
+    /// All below of the sun's visibility, RMS of its change from one frame to the next, as the
+    /// largest ratio to what the motion alone changes in the same two frames; 0 for no such frames.
+    /// Where a change of size shows, against the map with comparedN ...
     double worstJump = 0;
-    /// The same over all other frames: what the sizes between changes leave.
+    /// ... and against the maps before and after the change, each kept for both frames: a coarser
+    /// map's stair-steps move with light and camera, too. The larger of the two.
+    double worstJumpOverOwn = 0;
+    /// Over all other frames, against the map with comparedN: what the sizes between changes leave.
     double worstBetween = 0;
     double largestArtifactRatio = 0;
 };

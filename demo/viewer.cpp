@@ -2,6 +2,7 @@
 #include "demo/viewer.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "demo/demand_glsl.h"
 #include "renderer/scene_file.h"
@@ -52,20 +53,34 @@ ShadowRun::Settings Viewer::settingsOf(const ViewerState& state,
             .radiusUv = softness_.radiusUv,
             .resolution = resolution,
             .slope = slope_.slope,
-            .sizing = {.percentile = state.percentile, .crossFadeFrames = state.crossFadeFrames}};
+            .sizing = {.percentile = state.percentile, .crossFadeFrames = state.crossFadeFrames},
+            .budgetTexels = state.budgetTexels};
 }
 
 void Viewer::show(const ViewerState& state) {
     if (state == state_) return;
     checked(state);
-    frame_.prepare(renderer::findTechnique(state.technique));
+    const renderer::Technique& technique = renderer::findTechnique(state.technique);
+    frame_.prepare(technique);
+    view_.prepare(technique);
     try {
         apply(state);
-    } catch (const std::invalid_argument&) {
+    } catch (const std::exception&) {
         apply(state_);
         throw;
     }
     state_ = state;
+}
+
+void Viewer::useSlope(const std::optional<std::filesystem::path>& file) {
+    LoadedSlope last = std::exchange(slope_, loadSlope(file, state_.audience));
+    try {
+        run_->change(settingsOf(state_, state_.resolution));
+    } catch (const std::exception&) {
+        slope_ = std::move(last);
+        throw;
+    }
+    slopeFile_ = file;
 }
 
 void Viewer::apply(const ViewerState& state) {
@@ -88,7 +103,8 @@ void Viewer::apply(const ViewerState& state) {
 
 void Viewer::reload(const renderer::ShaderLibrary& shaders) {
     renderer::ViewPass view(shaders, kDemandGlsl);
-    frame_.reload(shaders);
+    view.prepare(renderer::findTechnique(state_.technique));
+    run_->reload(shaders);
     view_ = std::move(view);
     otherRun_.reset();  // made again when it is needed
     otherFrame_.reset();

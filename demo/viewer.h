@@ -26,9 +26,12 @@ class Viewer {
     /// From the next frame on. Throws std::invalid_argument, and std::runtime_error where the
     /// technique's shaders do not compile, and then the state stays as it was.
     void show(const ViewerState& state);
-    /// Takes these shaders for picture and view from the next frame on. Throws std::runtime_error
-    /// where one does not compile, and then the last good ones stay.
+    /// Takes these shaders for picture, view and demand from the next frame on. Throws
+    /// std::runtime_error where one does not compile, and then the last good ones stay.
     void reload(const renderer::ShaderLibrary& shaders);
+    /// Sizes maps by this slope.json, or by the published slope, from the next frame on. Throws
+    /// what loadSlope() throws, and then the slope stays.
+    void useSlope(const std::optional<std::filesystem::path>& file);
     void resize(int widthPx, int heightPx);
 
     /// The next frame. The clock sees the passes of the frame alone, not those of the one that it

@@ -9,10 +9,17 @@
 #include <cstdio>
 #include <numeric>
 
+#include "demo/map_names.h"
+#include "renderer/scene_file.h"
+
 namespace demo {
 namespace {
 
 constexpr float kPanelWidthEm = 24;  // in text heights
+constexpr double kMillion = 1e6;
+constexpr int kMostSliderLamps = 8;  // the state takes more
+// Of the budget's slider, million texels; the state takes any.
+constexpr float kLeastBudget = 0.01F, kMostBudget = 100;
 
 std::string number(const char* format, double value) {
     char text[64];
@@ -40,6 +47,15 @@ void drawTechnique(ViewerState& state) {
         state.cameraYawDeg = state.cameraPitchDeg = state.cameraDistanceM = {};
         state.sunAzimuthDeg = state.sunElevationDeg = {};
     }
+    if (!renderer::isModelFile(state.scene)) {
+        const auto option = [&](const char* label, const char* name, int least, int most) {
+            int value = sceneOption(state.scene, name, least);
+            if (ImGui::SliderInt(label, &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp))
+                state.scene = withSceneOption(state.scene, name, value, least);
+        };
+        option("maps of the sun", "cascades", 1, renderer::kMostCascades);
+        option("more lamps", "lamps", 0, kMostSliderLamps);
+    }
     chooseName("Technique", renderer::techniques(), state.technique,
                [](const auto& row) { return row.title; });
     const renderer::Technique& technique = renderer::findTechnique(state.technique);
@@ -62,24 +78,82 @@ void chooseSize(const char* label, int& size) {
     ImGui::EndCombo();
 }
 
+std::int64_t texelsOf(const std::vector<ChosenResolution>& maps) {
+    std::int64_t sum = 0;
+    for (const ChosenResolution& map : maps) sum += std::int64_t{map.resolution} * map.resolution;
+    return sum;
+}
+
+void drawBudget(const ShadowRun& run, ViewerState& state) {
+    bool limited = state.budgetTexels.has_value();
+    // What the maps take now, so that nothing changes before the slider does.
+    if (ImGui::Checkbox("budget for all maps", &limited))
+        state.budgetTexels = limited ? std::optional(texelsOf(run.maps())) : std::nullopt;
+    if (!state.budgetTexels) return;
+    auto millions = static_cast<float>(static_cast<double>(*state.budgetTexels) / kMillion);
+    if (ImGui::SliderFloat("million texels", &millions, kLeastBudget, kMostBudget, "%.2f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        state.budgetTexels = std::llround(static_cast<double>(millions) * kMillion);
+    if (!run.budget()) return;
+    ImGui::TextDisabled("used %.2f, wanted %.2f%s",
+                        static_cast<double>(run.budget()->used) / kMillion,
+                        static_cast<double>(run.budget()->wanted) / kMillion,
+                        run.budget()->feasible ? "" : "; the smallest sizes take more");
+}
+
+/// A row for each map.
+void drawMaps(const Viewer& viewer) {
+    const std::vector<ChosenResolution>& maps = viewer.run().maps();
+    const std::vector<std::string> names = mapNames(viewer.frame().lightViews());
+    if (maps.size() < 2 || names.size() != maps.size()) return;
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX;
+    if (!ImGui::BeginTable("maps", 4, kFlags)) return;
+    ImGui::TableSetupColumn("map");
+    ImGui::TableSetupColumn("N");
+    ImGui::TableSetupColumn("ratio");
+    ImGui::TableSetupColumn("why", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableHeadersRow();
+    for (std::size_t map = 0; map < maps.size(); ++map) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(names[map].c_str());
+        ImGui::TableNextColumn();
+        ImGui::Text("%d", maps[map].resolution);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(
+            maps[map].artifactRatio > 0 ? number("%.2f", maps[map].artifactRatio).c_str() : "-");
+        ImGui::TableNextColumn();
+        ImGui::TextWrapped("%s", maps[map].reason.c_str());
+    }
+    ImGui::EndTable();
+}
+
+/// Of a frame's only map.
+void drawChoice(const ChosenResolution& chosen) {
+    ImGui::TextWrapped("N = %d: %s", chosen.resolution, chosen.reason.c_str());
+    if (!chosen.automatic) return;
+    ImGui::TextDisabled("asked for %d; artifact ratio %.2f", chosen.need, chosen.artifactRatio);
+    if (chosen.shareAbove > 0) ImGui::TextDisabled("%.1f %% ask for more", 100 * chosen.shareAbove);
+    if (chosen.detailTexels > 0)
+        ImGui::TextDisabled("thin casters ask for %d", chosen.detailTexels);
+}
+
 void drawSize(const Viewer& viewer, const ChosenResolution& chosen, ViewerState& state) {
     bool automatic = !state.resolution;
     if (ImGui::Checkbox("automatic size", &automatic))
         state.resolution = automatic ? ResolutionOption() : ResolutionOption(chosen.resolution);
     if (state.resolution) chooseSize("Size", *state.resolution);
-    ImGui::Text("N = %d: %s", chosen.resolution, chosen.reason.c_str());
+    if (viewer.run().maps().size() == 1) drawChoice(chosen);
     if (chosen.automatic) {
-        ImGui::TextDisabled("asked for %d; artifact ratio %.2f; %.1f %% ask for more", chosen.need,
-                            chosen.artifactRatio, 100 * chosen.shareAbove);
-        if (chosen.detailTexels > 0)
-            ImGui::TextDisabled("thin casters ask for %d", chosen.detailTexels);
         auto met = static_cast<float>(100 * state.percentile);
         if (ImGui::SliderFloat("% of points met", &met, 50, 100, "%.1f",
                                ImGuiSliderFlags_AlwaysClamp))
             state.percentile = static_cast<double>(met) / 100;
         ImGui::SliderInt("fade (frames)", &state.crossFadeFrames, 0, 120, "%d",
                          ImGuiSliderFlags_AlwaysClamp);
+        drawBudget(viewer.run(), state);
     }
+    drawMaps(viewer);
 
     auto softness = static_cast<float>(viewer.softness().radiusM);
     const auto extent = static_cast<float>(viewer.softness().radiusM / viewer.softness().radiusUv);
@@ -95,7 +169,8 @@ void drawSize(const Viewer& viewer, const ChosenResolution& chosen, ViewerState&
     }
 }
 
-void drawAudience(const Viewer& viewer, ViewerState& state) {
+void drawAudience(const Viewer& viewer, PanelTexts& texts, PanelRequest& request,
+                  ViewerState& state) {
     auto percent =
         static_cast<float>(100 * (state.audience.detection > 0 ? state.audience.detection
                                                                : viewer.slope().slope.criterion));
@@ -112,9 +187,16 @@ void drawAudience(const Viewer& viewer, ViewerState& state) {
     ImGui::TextWrapped("%s", viewer.slope().text.c_str());
     for (const std::string& note : viewer.slope().notes)
         ImGui::TextWrapped("Note: %s.", note.c_str());
+    request.useTypedSlope =
+        ImGui::InputTextWithHint("##slope", "slope.json of a study", texts.slopeFile.data(),
+                                 texts.slopeFile.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    request.useTypedSlope |= ImGui::Button("Load");
+    if (!viewer.slope().file.empty() && ImGui::SmallButton("the published slope"))
+        request.usePublishedSlope = true;
 }
 
-void drawView(ViewerState& state) {
+void drawView(const Viewer& viewer, ViewerState& state) {
     if (ImGui::BeginCombo("View", std::string(toText(state.view)).c_str())) {
         for (const renderer::View view : renderer::kAllViews)
             if (ImGui::Selectable(std::string(toText(view)).c_str(), view == state.view))
@@ -143,6 +225,8 @@ void drawView(ViewerState& state) {
             static_cast<double>(renderer::ViewPass::kMostDemand));
     if (state.view == View::penumbra)
         ImGui::TextWrapped("visibility in penumbra: violet 0, green .5, yellow 1");
+    if (viewer.run().maps().size() > 1 && state.view != View::picture && state.view != View::split)
+        ImGui::TextWrapped("Of the sun's first map alone.");
 }
 
 void drawLight(const Viewer& viewer, ViewerState& state) {
@@ -191,7 +275,7 @@ void drawPasses(const FrameHistory& history, float width) {
     }
 }
 
-void drawPlots(const FrameHistory& history, ViewerState& state) {
+void drawPlots(const FrameHistory& history, bool several, ViewerState& state) {
     if (history.entries.empty()) return;
     std::vector<float> values(history.entries.size());
     const float width = ImGui::GetContentRegionAvail().x;
@@ -203,7 +287,11 @@ void drawPlots(const FrameHistory& history, ViewerState& state) {
                          static_cast<int>(values.size()), 0, nullptr, 0, 1.25F * most,
                          {width, 2.2F * ImGui::GetTextLineHeight()});
     };
-    plot("map size", "%.0f", [](const auto& entry) { return entry.resolution; });
+    if (several)
+        plot("all maps, million texels", "%.2f",
+             [](const auto& entry) { return entry.mapTexels / static_cast<float>(kMillion); });
+    else
+        plot("map size", "%.0f", [](const auto& entry) { return entry.resolution; });
     plot("frame", "%.1f ms", [](const auto& entry) { return entry.frameMs; });
     plot("artifact ratio", "%.2f", [](const auto& entry) { return entry.artifactRatio; });
     ImGui::Checkbox("time every pass", &state.timePasses);
@@ -214,7 +302,7 @@ void drawPlots(const FrameHistory& history, ViewerState& state) {
 }  // namespace
 
 PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
-                       const std::string& message, ViewerState& state) {
+                       const std::string& message, PanelTexts& texts, ViewerState& state) {
     PanelRequest request;
     const float em = ImGui::GetTextLineHeight();
     ImGui::SetNextWindowPos({em, em}, ImGuiCond_FirstUseEver);
@@ -226,10 +314,11 @@ PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
     ImGui::Separator();
     drawSize(viewer, viewer.run().chosen(), state);
     ImGui::Separator();
-    drawView(state);
-    if (ImGui::CollapsingHeader("For whom")) drawAudience(viewer, state);
+    drawView(viewer, state);
+    if (ImGui::CollapsingHeader("For whom")) drawAudience(viewer, texts, request, state);
     if (ImGui::CollapsingHeader("Light and paths")) drawLight(viewer, state);
-    if (ImGui::CollapsingHeader("Plots", ImGuiTreeNodeFlags_DefaultOpen)) drawPlots(history, state);
+    if (ImGui::CollapsingHeader("Plots", ImGuiTreeNodeFlags_DefaultOpen))
+        drawPlots(history, viewer.run().maps().size() > 1, state);
     if (ImGui::CollapsingHeader("Keys")) ImGui::TextUnformatted(keyHelp().c_str());
     if (ImGui::Button("Save a picture")) request.screenshot = true;
     if (!message.empty()) ImGui::TextWrapped("%s", message.c_str());

@@ -16,8 +16,9 @@ struct FrameHistory {
     static constexpr std::size_t kFrames = 240;
     struct Entry {
         float frameMs = 0;
-        float resolution = 0;
-        float artifactRatio = 0;
+        float resolution = 0;              ///< of the sun's map
+        float artifactRatio = 0;           ///< the worst of all maps
+        float mapTexels = 0;               ///< of all maps together
         renderer::PassTimesMs passesMs{};  ///< 0 where not timed
     };
     std::deque<Entry> entries;
@@ -28,12 +29,18 @@ struct FrameHistory {
     }
 };
 
+/// What is being typed.
+struct PanelTexts {
+    std::array<char, 1024> slopeFile{};
+};
+
 struct PanelRequest {
     bool screenshot = false;
+    bool useTypedSlope = false, usePublishedSlope = false;
 };
 
 /// Changes `state` as the user does. `message`: the last thing that happened, shown at the bottom.
 PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
-                       const std::string& message, ViewerState& state);
+                       const std::string& message, PanelTexts& texts, ViewerState& state);
 
 }  // namespace demo

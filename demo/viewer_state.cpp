@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -20,6 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kSmallestFixed = 128;  // key 1; each further digit doubles it
 constexpr double kLeastPercentile = 0.5;
 constexpr int kMostFadeFrames = 120;
+constexpr std::int64_t kMostBudgetTexels = 1'000'000'000'000;
 constexpr float kLeastGain = 1, kMostGain = 64;
 constexpr float kLeastAngleDeg = 2, kMostAngleDeg = 88;
 constexpr float kLeastDistance = 0.2F, kMostDistance = 6;  // of the scene's own
@@ -128,6 +131,9 @@ std::string validate(const ViewerState& state) {
         return outside("percentile", state.percentile, kLeastPercentile, 1);
     if (state.crossFadeFrames < 0 || state.crossFadeFrames > kMostFadeFrames)
         return outside("cross_fade_frames", state.crossFadeFrames, 0, kMostFadeFrames);
+    if (state.budgetTexels && (*state.budgetTexels < 1 || *state.budgetTexels > kMostBudgetTexels))
+        return outside("budget_texels", static_cast<double>(*state.budgetTexels), 1,
+                       static_cast<double>(kMostBudgetTexels));
     for (const auto& [field, angle] : {std::pair{"camera_yaw_deg", state.cameraYawDeg},
                                        std::pair{"camera_pitch_deg", state.cameraPitchDeg},
                                        std::pair{"camera_distance_m", state.cameraDistanceM},
@@ -159,6 +165,9 @@ ViewerState readViewerState(const std::filesystem::path& file) {
     state.percentile = fields.optionalNumber("percentile").value_or(state.percentile);
     state.crossFadeFrames =
         fields.optionalInteger("cross_fade_frames").value_or(state.crossFadeFrames);
+    if (const auto texels = fields.optionalUnsignedInteger("budget_texels"))
+        state.budgetTexels = static_cast<std::int64_t>(
+            std::min<std::uint64_t>(*texels, std::numeric_limits<std::int64_t>::max()));
     state.view = fields.word("view", viewWords());
     state.splitAt = static_cast<float>(fields.number("split_at"));
     state.gain = static_cast<float>(fields.number("gain"));
@@ -192,6 +201,7 @@ void writeViewerState(const std::filesystem::path& file, const ViewerState& stat
                        {"people", state.audience.people},
                        {"percentile", state.percentile},
                        {"cross_fade_frames", state.crossFadeFrames},
+                       {"budget_texels", orNull(state.budgetTexels)},
                        {"view", toText(state.view)},
                        {"split_at", state.splitAt},
                        {"gain", state.gain},
@@ -238,6 +248,23 @@ renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own,
     return state.path == Path::sun ? along(path, sun, state.pathPlace) : sun;
 }
 
+int sceneOption(const std::string& source, const std::string& option, int standard) {
+    const std::size_t at = source.find(":" + option + "=");
+    if (at == std::string::npos) return standard;
+    int value = standard;
+    const char* number = source.data() + at + option.size() + 2;
+    std::from_chars(number, source.data() + source.size(), value);
+    return value;
+}
+
+std::string withSceneOption(const std::string& source, const std::string& option, int value,
+                            int standard) {
+    std::string changed = source;
+    if (const std::size_t at = source.find(":" + option + "="); at != std::string::npos)
+        changed.erase(at, source.find(':', at + 1) - at);
+    return value == standard ? changed : changed + ":" + option + "=" + std::to_string(value);
+}
+
 renderer::View parseView(const std::string& word, const std::string& option) {
     return wordOf(viewWords(), word, option);
 }
@@ -279,7 +306,7 @@ bool applyKey(char key, ViewerState& state) {
             return true;
         case 'S':
             state.scene = next(renderer::builtInScenes(), [&](const renderer::SceneEntry& row) {
-                              return row.name == state.scene;
+                              return row.name == state.scene.substr(0, state.scene.find(':'));
                           })->name;
             state.cameraYawDeg = state.cameraPitchDeg = state.cameraDistanceM = {};
             state.sunAzimuthDeg = state.sunElevationDeg = {};

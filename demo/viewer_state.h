@@ -3,6 +3,7 @@
 // this, and Viewer draws it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -29,6 +30,8 @@ struct ViewerState {
     resolution_controller::Audience audience = {};  ///< for whom the automatic size is chosen
     double percentile = 0.98;  ///< share of the points whose demand is met, [0.5, 1]; 1: of all
     int crossFadeFrames = 8;   ///< over which a change of the automatic size is faded, [0, 120]
+    /// For the automatic sizes of all maps together, texels, [1, 1e12]; absent: no budget.
+    std::optional<std::int64_t> budgetTexels = {};
 
     renderer::View view = renderer::View::picture;
     float splitAt = 0.5F;  ///< [0, 1]
@@ -64,6 +67,13 @@ renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own,
 
 /// A camera's distance, nearer or farther by a factor, within what suits the scene's own camera.
 float zoomed(float distanceM, float factor, const renderer::OrbitCamera& own);
+
+/// What stands behind `option` in a scene's source ("yard:cascades=4"); `standard` where it is not
+/// there or no number.
+int sceneOption(const std::string& source, const std::string& option, int standard);
+/// The source with another value there; without the option for the standard value.
+std::string withSceneOption(const std::string& source, const std::string& option, int value,
+                            int standard);
 
 /// A word of the command line. Throws std::invalid_argument that names `option` and lists the
 /// words.

@@ -114,6 +114,29 @@ std::string savePicture(Viewer& viewer, const std::filesystem::path& folder) {
     return "saved as " + file.string();
 }
 
+/// All but the times.
+FrameHistory::Entry entryOf(const ShadowRun& run) {
+    FrameHistory::Entry entry;
+    entry.resolution = static_cast<float>(run.chosen().resolution);
+    for (const ChosenResolution& map : run.maps()) {
+        const auto edge = static_cast<float>(map.resolution);
+        entry.mapTexels += edge * edge;
+        entry.artifactRatio = std::max(entry.artifactRatio, static_cast<float>(map.artifactRatio));
+    }
+    return entry;
+}
+
+/// What came of it.
+std::string useSlope(Viewer& viewer, const std::optional<std::filesystem::path>& file) {
+    if (file && file->empty()) return "Load: no slope.json is named";
+    try {
+        viewer.useSlope(file);
+    } catch (const std::exception& error) {
+        return error.what();  // the slope stays
+    }
+    return file ? "the slope of " + file->string() + " is in use" : "the published slope is in use";
+}
+
 /// What came of it.
 std::string reloadShaders(Viewer& viewer, const std::optional<std::filesystem::path>& folder) {
     if (!folder) return "the shaders are those of the program; start it with --shaders FOLDER";
@@ -132,6 +155,8 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
     const Interface interface(window);
     renderer::PassClock clock(window.info());
     FrameHistory history;
+    PanelTexts texts;
+    viewer.slope().file.copy(texts.slopeFile.data(), texts.slopeFile.size() - 1);
     Mouse mouse;
     std::string message;
     double smoothMs = 0;
@@ -141,8 +166,8 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         const renderer::WindowInput input = window.poll();
         ViewerState state = viewer.state();
         for (const char key : input.keys) {
-            if (key == '\x1b') return;
             if (ImGui::GetIO().WantTextInput) continue;
+            if (key == '\x1b') return;
             if (key == kReloadKey)
                 message = reloadShaders(viewer, options.shaderFolder);
             else
@@ -159,12 +184,14 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         Interface::begin();
         mouse.apply(viewer, state);
         PanelRequest request;
-        if (state.panel) request = drawPanel(viewer, history, message, state);
+        if (state.panel) request = drawPanel(viewer, history, message, texts, state);
         try {
             viewer.show(state);
         } catch (const std::exception& error) {
             message = error.what();  // the picture stays as it was
         }
+        if (request.useTypedSlope) message = useSlope(viewer, texts.slopeFile.data());
+        if (request.usePublishedSlope) message = useSlope(viewer, std::nullopt);
         viewer.step(state.timePasses ? &clock : nullptr);
         if (request.screenshot) message = savePicture(viewer, options.pictureFolder);
         window.copyFrom(viewer.framebuffer(), viewer.frame().widthPx(), viewer.frame().heightPx());
@@ -173,11 +200,10 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
 
         const double ms = 1000 * seconds;
         if (shown > 0) smoothMs = smoothMs == 0 ? ms : 0.9 * smoothMs + 0.1 * ms;
-        const ChosenResolution& chosen = viewer.run().chosen();
-        history.add({.frameMs = static_cast<float>(smoothMs),
-                     .resolution = static_cast<float>(chosen.resolution),
-                     .artifactRatio = static_cast<float>(chosen.artifactRatio),
-                     .passesMs = state.timePasses ? clock.collectMs() : renderer::PassTimesMs{}});
+        FrameHistory::Entry entry = entryOf(viewer.run());
+        entry.frameMs = static_cast<float>(smoothMs);
+        if (state.timePasses) entry.passesMs = clock.collectMs();
+        history.add(entry);
     }
 }
 

@@ -36,29 +36,51 @@ PixelDemandPrograms::PixelDemandPrograms(const ShaderLibrary& shaders, Make make
                                                         {"technique", "shared/one_radius.glsl"}}}));
 }
 
-void PixelDemandPrograms::use(const Renderer::Outputs& frame, const DemandRule& rule) {
-    const Technique* own = hasOwnRadius(shaders_, *frame.technique) ? frame.technique : nullptr;
+const Program& PixelDemandPrograms::programOf(const Technique& technique) {
+    const Technique* own = hasOwnRadius(shaders_, technique) ? &technique : nullptr;
     auto program = programs_.find(own);
     if (program == programs_.end()) {
-        ShaderOptions options = techniqueOptions(*own);
+        ShaderOptions options = techniqueOptions(technique);
         options.substitutions.emplace("demand", kDemandInclude);
         program = programs_.emplace(own, make_(options)).first;
     }
+    return program->second;
+}
+
+void PixelDemandPrograms::prepare(const Technique& technique) {
+    programOf(technique);
+}
+
+void PixelDemandPrograms::prepareAs(const PixelDemandPrograms& other) {
+    for (const auto& [technique, program] : other.programs_)
+        if (technique != nullptr) prepare(*technique);
+}
+
+void PixelDemandPrograms::use(const Renderer::Outputs& frame, const DemandRule& rule) {
+    const Program& program = programOf(*frame.technique);
     const std::array<GLuint, kTextures> textures = {frame.positions,  frame.planes,
                                                     frame.visibility, frame.normals,
                                                     frame.albedos,    frame.depths};
     glBindTextures(0, kTextures, textures.data());
-    glUseProgram(program->second.name());
+    glUseProgram(program.name());
     glUniform4f(0, rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster);
     glUniform1ui(1, frame.hasKernel ? 1 : 0);
 }
 
 DemandPass::DemandPass(const ShaderLibrary& shaders, const std::string& demandGlsl)
-    : programs_(shaders,
-                [library = withDemand(shaders, demandGlsl)](const ShaderOptions& options) {
-                    return makeComputeProgram(library, "passes/demand.comp", options);
-                }),
-      ring_(kCounters, "demand") {}
+    : demandGlsl_(demandGlsl), programs_(makePrograms(shaders)) {}
+
+PixelDemandPrograms DemandPass::makePrograms(const ShaderLibrary& shaders) const {
+    return {shaders, [library = withDemand(shaders, demandGlsl_)](const ShaderOptions& options) {
+                return makeComputeProgram(library, "passes/demand.comp", options);
+            }};
+}
+
+void DemandPass::reload(const ShaderLibrary& shaders) {
+    PixelDemandPrograms programs = makePrograms(shaders);
+    programs.prepareAs(programs_);
+    programs_ = std::move(programs);
+}
 
 void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock* clock,
                         std::size_t view) {
@@ -67,20 +89,29 @@ void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock
     frame.bindConstants(view);
     if (clock != nullptr) clock->begin(Pass::demand);
     programs_.use(*inputs, rule);
-    const SparsePixels pixels = sparsePixels(frame, ring_.submissions());
+    while (rings_.size() <= view)
+        rings_.push_back(std::make_unique<CounterRing>(kCounters, "demand"));
+    CounterRing& ring = *rings_[view];
+    const SparsePixels pixels = sparsePixels(frame, ring.submissions());
     glUniform3i(2, pixels.cell.x, pixels.cell.y, pixels.cell.z);
-    ring_.begin();
+    ring.begin();
     glDispatchCompute(pixels.groupsX, pixels.groupsY, 1);
-    ring_.end();
+    ring.end();
     if (clock != nullptr) clock->end(Pass::demand);
 }
 
-std::optional<DemandPass::Reading> DemandPass::newest() {
-    const auto newest = ring_.newest();
+std::optional<DemandPass::Reading> DemandPass::newest(std::size_t view) {
+    if (view >= rings_.size()) return std::nullopt;
+    const auto newest = rings_[view]->newest();
     if (!newest) return std::nullopt;
     Reading reading{.counters = {}, .ageFrames = newest->age};
     std::copy_n(newest->counters.begin(), kCounters, reading.counters.begin());
     return reading;
+}
+
+int DemandPass::lost() const {
+    return std::accumulate(rings_.begin(), rings_.end(), 0,
+                           [](int sum, const auto& ring) { return sum + ring->lost(); });
 }
 
 SparsePixels sparsePixels(const Renderer& frame, std::uint64_t turn) {

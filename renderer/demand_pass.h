@@ -15,8 +15,10 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "renderer/counter_ring.h"
 #include "renderer/renderer.h"
@@ -44,15 +46,20 @@ bool hasOwnRadius(const ShaderLibrary& shaders, const Technique& technique);
 class PixelDemandPrograms {
   public:
     using Make = std::function<Program(const ShaderOptions&)>;
-    /// Throws what `make` throws.
+    /// Throws what `make` throws, as all below.
     PixelDemandPrograms(const ShaderLibrary& shaders, Make make);
-    /// Uses the one for a frame, with the frame's textures and the rule in place. Throws what
-    /// `make` throws.
+    /// Makes the one for a technique, if it has not been.
+    void prepare(const Technique& technique);
+    /// Makes all that another one has.
+    void prepareAs(const PixelDemandPrograms& other);
+    /// Uses the one for a frame, with the frame's textures and the rule in place.
     void use(const Renderer::Outputs& frame, const DemandRule& rule);
     /// Texture units that pixel_demand.glsl takes, from 0.
     static constexpr unsigned kTextures = 6;
 
   private:
+    const Program& programOf(const Technique& technique);
+
     ShaderLibrary shaders_;
     Make make_;
     std::map<const Technique*, Program> programs_;  // null: the same radius everywhere
@@ -75,23 +82,31 @@ class DemandPass {
     /// stairwellDemandWeight() and stairwellDemandCounter(). Throws std::runtime_error where it does not compile.
     DemandPass(const ShaderLibrary& shaders, const std::string& demandGlsl);
 
+    /// Takes these shaders from now on; what is under way still arrives. Throws std::runtime_error
+    /// where one that has been used does not compile, and then the last good ones stay.
+    void reload(const ShaderLibrary& shaders);
+    /// Compiles what the technique needs, if it has not been; throws as the constructor does.
+    void prepare(const Technique& technique) { programs_.prepare(technique); }
+
     /// Counts the demand of the frame that `frame` drew last. Nothing happens before its first
     /// frame. Which pixel of each cell is asked rotates from call to call, so that as many calls as
     /// a cell has pixels ask every pixel once.
-    /// `view` is one of the frame's maps; only the pixels that it serves are asked. With several
-    /// maps each needs a DemandPass of its own.
+    /// `view` is one of the frame's maps; only the pixels that it serves are asked.
     void submit(const Renderer& frame, const DemandRule& rule, PassClock* clock = nullptr,
                 std::size_t view = 0);
 
-    /// The newest submission that the GPU has finished and that was not returned before; absent
-    /// where there is none. Never waits.
-    std::optional<Reading> newest();
+    /// The newest submission for a map that the GPU has finished and that was not returned before;
+    /// absent where there is none. Never waits.
+    std::optional<Reading> newest(std::size_t view = 0);
 
-    int lost() const { return ring_.lost(); }  ///< see CounterRing
+    int lost() const;  ///< see CounterRing
 
   private:
+    PixelDemandPrograms makePrograms(const ShaderLibrary& shaders) const;
+
+    std::string demandGlsl_;
     PixelDemandPrograms programs_;
-    CounterRing ring_;
+    std::vector<std::unique_ptr<CounterRing>> rings_;  // one for each map
 };
 
 /// Of a pass that asks one pixel of every cell, in groups of 16 x 8 cells.

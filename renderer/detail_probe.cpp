@@ -41,21 +41,31 @@ int detailOf(const std::array<std::uint32_t, DemandPass::kCounters>& counters) {
 }
 
 DetailProbe::DetailProbe(const ShaderLibrary& shaders, const std::string& demandGlsl)
-    : program_(makeComputeProgram(withDemand(shaders, demandGlsl), "passes/detail.comp",
-                                  {.defines = {{"MAP_SAMPLER", "sampler2D"},
-                                               {"WIDEST_TEXELS", std::to_string(kWidestTexels)}},
-                                   .substitutions = {{"demand", kDemandInclude}}})),
+    : demandGlsl_(demandGlsl),
+      program_(makeDetailProgram(shaders)),
       depths_(makeTexture(GL_DEPTH_COMPONENT32F, kDrawnEdge, kDrawnEdge, "detail tile")),
       target_(makeFramebuffer({}, depths_.name(), "detail tile")),
       shadowBlock_(makeBuffer(nullptr, sizeof(f32::ShadowConstants), GL_DYNAMIC_STORAGE_BIT,
-                              "detail constants")),
-      ring_(DemandPass::kCounters, "detail") {}
+                              "detail constants")) {}
+
+Program DetailProbe::makeDetailProgram(const ShaderLibrary& shaders) const {
+    return makeComputeProgram(withDemand(shaders, demandGlsl_), "passes/detail.comp",
+                              {.defines = {{"MAP_SAMPLER", "sampler2D"},
+                                           {"WIDEST_TEXELS", std::to_string(kWidestTexels)}},
+                               .substitutions = {{"demand", kDemandInclude}}});
+}
+
+void DetailProbe::reload(const ShaderLibrary& shaders) {
+    program_ = makeDetailProgram(shaders);
+}
 
 void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::size_t view) {
     const auto inputs = frame.outputs(view);
     if (!inputs) return;
-    take();
-    const int tile = tileOf(ring_.submissions());
+    while (answers_.size() <= view) answers_.push_back(std::make_unique<Answers>());
+    Answers& answers = *answers_[view];
+    answers.take();
+    const int tile = tileOf(answers.ring.submissions());
     const glm::ivec2 lowest =
         glm::ivec2(tile % kTilesAlong, tile / kTilesAlong) * kTileEdge - glm::ivec2(kMargin);
     const double edgeUv = static_cast<double>(kDrawnEdge) / kFineEdge;
@@ -72,7 +82,7 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
     frame.drawCasters(target_, kDrawnEdge, view);
 
-    const SparsePixels pixels = sparsePixels(frame, ring_.submissions() / kTiles);
+    const SparsePixels pixels = sparsePixels(frame, answers.ring.submissions() / kTiles);
     glUseProgram(program_.name());
     glBindTextureUnit(0, inputs->positions);
     glBindTextureUnit(1, inputs->planes);
@@ -81,17 +91,17 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     glUniform1ui(1, inputs->hasKernel ? 1 : 0);
     glUniform3i(2, pixels.cell.x, pixels.cell.y, pixels.cell.z);
     glUniform4i(3, lowest.x, lowest.y, kMargin, kDrawnEdge);
-    ring_.begin();
+    answers.ring.begin();
     glDispatchCompute(pixels.groupsX, pixels.groupsY, 1);
-    ring_.end();
+    answers.ring.end();
     frame.bindConstants(view);
 }
 
-void DetailProbe::take() {
-    const auto reading = ring_.newest();
-    if (!reading || reading->submission < forgottenBefore_) return;
+void DetailProbe::Answers::take() {
+    const auto reading = ring.newest();
+    if (!reading || reading->submission < forgottenBefore) return;
     std::copy_n(reading->counters.begin(), DemandPass::kCounters,
-                tiles_[static_cast<std::size_t>(tileOf(reading->submission))].begin());
+                tiles[static_cast<std::size_t>(tileOf(reading->submission))].begin());
 }
 
 void DetailProbe::submitAll(const Renderer& frame, const DemandRule& rule, std::size_t view) {
@@ -99,20 +109,23 @@ void DetailProbe::submitAll(const Renderer& frame, const DemandRule& rule, std::
         submit(frame, rule, view);
         glFinish();
     }
-    take();
+    if (view < answers_.size()) answers_[view]->take();
 }
 
-int DetailProbe::detailTexels() {
-    take();
+int DetailProbe::detailTexels(std::size_t view) {
+    if (view >= answers_.size()) return 0;
+    answers_[view]->take();
     Counters all{};
-    for (const Counters& tile : tiles_)
+    for (const Counters& tile : answers_[view]->tiles)
         for (std::size_t i = 0; i < all.size(); ++i) all[i] += tile[i];
     return std::min(detailOf(all), kFineEdge);
 }
 
 void DetailProbe::forget() {
-    tiles_ = {};
-    forgottenBefore_ = ring_.submissions();
+    for (const auto& answers : answers_) {
+        answers->tiles = {};
+        answers->forgottenBefore = answers->ring.submissions();
+    }
 }
 
 }  // namespace renderer

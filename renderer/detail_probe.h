@@ -16,7 +16,9 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "renderer/demand_pass.h"
 
@@ -34,31 +36,40 @@ class DetailProbe {
     /// See DemandPass for `demandGlsl`. Throws std::runtime_error where it does not compile.
     DetailProbe(const ShaderLibrary& shaders, const std::string& demandGlsl);
 
-    /// Draws the next tile under the light of the frame that `frame` drew last, and asks that
-    /// frame's pixels. Nothing happens before its first frame. `view` is one of the frame's maps;
-    /// with several each needs a probe of its own.
+    /// Takes these shaders from now on; what the tiles said stays. Throws std::runtime_error where
+    /// one does not compile, and then the last good ones stay.
+    void reload(const ShaderLibrary& shaders);
+
+    /// Draws the next tile of one of the frame's maps under the light of the frame that `frame`
+    /// drew last, and asks that frame's pixels. Nothing happens before its first frame.
     void submit(const Renderer& frame, const DemandRule& rule, std::size_t view = 0);
     /// Every tile at once, and waits for the answers: for a first frame or another scene.
     void submitAll(const Renderer& frame, const DemandRule& rule, std::size_t view = 0);
 
-    /// What the newest readings of all tiles ask for, at most kFineEdge; 0 for nothing. Never
-    /// waits.
-    int detailTexels();
+    /// What the newest readings of all tiles of a map ask for, at most kFineEdge; 0 for nothing.
+    /// Never waits.
+    int detailTexels(std::size_t view = 0);
 
     /// Another scene: what the tiles said is forgotten.
     void forget();
 
   private:
-    void take();
     using Counters = std::array<std::uint32_t, DemandPass::kCounters>;
+    /// Of one map.
+    struct Answers {
+        CounterRing ring{DemandPass::kCounters, "detail"};
+        std::array<Counters, kTiles> tiles{};
+        std::uint64_t forgottenBefore = 0;  // submissions whose answers are of no use
+        void take();
+    };
+    Program makeDetailProgram(const ShaderLibrary& shaders) const;
 
+    std::string demandGlsl_;
     Program program_;
     Texture depths_;
     Framebuffer target_;
     Buffer shadowBlock_;
-    CounterRing ring_;
-    std::array<Counters, kTiles> tiles_{};
-    std::uint64_t forgottenBefore_ = 0;  // submissions whose answers are of no use
+    std::vector<std::unique_ptr<Answers>> answers_;
 };
 
 /// The texels that the samples ask for, from counters as demand.glsl has them: a few samples at the

@@ -109,6 +109,9 @@ class Renderer {
     int widthPx() const { return widthPx_; }
     int heightPx() const { return heightPx_; }
 
+    /// What a frame with these settings gives one of lightViews().
+    MapSettings mapSettings(const FrameSettings& settings, std::size_t view) const;
+
     /// Draws a frame. With a clock its passes are timed. Throws std::invalid_argument for settings
     /// out of range and std::runtime_error where the driver has no room for the map or reports an
     /// error.
@@ -160,7 +163,6 @@ class Renderer {
     void fitViews();
     void makeVisibilities();
     void uploadScene();
-    MapSettings mapSettings(const FrameSettings& settings, std::size_t view) const;
     void updateConstants(const FrameSettings& settings);
     void setShadowConstants(const FrameSettings& settings, std::size_t view, int resolution);
     void ensureMap(std::size_t view, int resolution);

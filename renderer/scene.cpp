@@ -87,6 +87,15 @@ void setCascades(Scene& scene, std::string_view option) {
     scene.name += "_" + std::to_string(scene.cascades) + "_cascades";
 }
 
+void addLamps(Scene& scene, std::string_view option) {
+    const std::size_t most = kMostLamps - scene.lamps.size();
+    const std::size_t count =
+        optionValue(scene.source, option, 1, most, "1 to " + std::to_string(most));
+    const std::vector<Lamp> lamps = ringOfSpots(count, scene.casters);
+    scene.lamps.insert(scene.lamps.end(), lamps.begin(), lamps.end());
+    scene.name += "_" + std::to_string(count) + "_lamps";
+}
+
 }  // namespace
 
 SceneObject paving(float halfExtent, int cells) {
@@ -134,6 +143,24 @@ Sun along(const SunPath& path, const Sun& start, double place) {
     return sun;
 }
 
+std::vector<Lamp> ringOfSpots(std::size_t count, const Bounds& casters) {
+    // Together somewhat less bright than the sun (chosen by eye).
+    constexpr float kLightOfAll = 1.2F;
+    const glm::vec3 middle = 0.5F * (casters.low + casters.high);
+    const float radius = glm::distance(casters.low, casters.high);
+    std::vector<Lamp> lamps(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float angle =
+            glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(count);
+        lamps[i].position = middle + radius * glm::vec3(std::sin(angle), 1, std::cos(angle));
+        lamps[i].target = middle;
+        lamps[i].colour = glm::vec3(kLightOfAll * 2 * radius * radius / static_cast<float>(count));
+        lamps[i].nearM = 0.1F * radius;
+        lamps[i].farM = 5 * radius;
+    }
+    return lamps;
+}
+
 std::size_t casterTriangles(const Scene& scene) {
     std::size_t count = 0;
     for (const SceneObject& object : scene.objects)
@@ -168,11 +195,13 @@ Scene makeScene(std::string_view source) {
             splitCasters(scene, option);
         else if (option.starts_with("cascades="))
             setCascades(scene, option);
+        else if (option.starts_with("lamps="))
+            addLamps(scene, option);
         else
             throw std::invalid_argument("scene \"" + scene.source + "\": option \"" +
                                         std::string(option) +
-                                        "\" is not known; known are triangles=COUNT and "
-                                        "cascades=COUNT");
+                                        "\" is not known; known are triangles=COUNT, "
+                                        "cascades=COUNT and lamps=COUNT");
         colon = next;
     }
     return scene;

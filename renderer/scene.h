@@ -85,6 +85,9 @@ struct SunPath {
 OrbitCamera along(const CameraPath& path, const OrbitCamera& start, double place);
 Sun along(const SunPath& path, const Sun& start, double place);
 
+/// Spots in a ring over the casters, all of them towards their middle.
+std::vector<Lamp> ringOfSpots(std::size_t count, const Bounds& casters);
+
 struct Scene {
     std::string name;    ///< fit for a file's name
     std::string source;  ///< what makeScene() was asked for
@@ -122,8 +125,9 @@ const SceneEntry& findScene(std::string_view source);
 
 /// A built-in scene by its name, with options after colons: NAME:triangles=COUNT is the same
 /// picture with its casters split into about as many triangles, from their own number to 4,000,000;
-/// NAME:cascades=COUNT has as many maps of the sun. Throws std::invalid_argument for an unknown
-/// name or option and a count out of range.
+/// NAME:cascades=COUNT has as many maps of the sun; NAME:lamps=COUNT has as many spots more, in a
+/// ring over the casters. Throws std::invalid_argument for an unknown name or option and a count
+/// out of range.
 Scene makeScene(std::string_view source);
 
 }  // namespace renderer

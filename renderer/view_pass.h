@@ -44,6 +44,9 @@ class ViewPass {
     /// See DemandPass for `demandGlsl`. Throws std::runtime_error where it does not compile.
     ViewPass(const ShaderLibrary& shaders, const std::string& demandGlsl);
 
+    /// Compiles what the technique needs, if it has not been; throws as the constructor does.
+    void prepare(const Technique& technique) { programs_.prepare(technique); }
+
     /// Both frames are drawn and of one size. `other` may be null for a view that does not compare.
     /// Throws std::invalid_argument otherwise.
     void draw(const Renderer& frame, const Renderer* other, const ViewSettings& settings);

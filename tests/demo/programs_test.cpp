@@ -76,6 +76,41 @@ TEST(ShadowDemo, WritesAPictureAndItsStats) {
         EXPECT_GT(stats.at("passes_ms").at(pass).at("median").get<double>(), 0) << pass;
     const int n = stats.at("resolution");
     EXPECT_EQ(stats.at("map_bytes").get<int>(), 4 * n * n);
+    ASSERT_EQ(stats.at("maps").size(), 1U);
+    EXPECT_EQ(stats.at("maps").at(0).at("map"), "sun");
+    EXPECT_EQ(stats.at("maps").at(0).at("resolution"), n);
+    EXPECT_TRUE(stats.at("budget").is_null());
+}
+
+TEST(ShadowDemo, SharesABudgetAmongMapsAndRecordsWhy) {
+    const tests::TemporaryFolder folder;
+    const std::string json = (folder.path() / "stats.json").string();
+    const std::string trace = (folder.path() / "sizes.trace").string();
+    const auto result = tests::runProgram(
+        "shadow_demo", smallFrame({"--scene", "yard:cascades=2", "--budget-texels", "300000",
+                                   "--stats", json, "--trace", trace}));
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("sun, cascade 2"));
+    EXPECT_THAT(result.out, HasSubstr("budget: 300000 texels"));
+    const auto stats = nlohmann::json::parse(std::ifstream(json));
+    ASSERT_EQ(stats.at("maps").size(), 2U);
+    int used = 0;
+    for (const auto& map : stats.at("maps")) {
+        EXPECT_FALSE(map.at("reason").get<std::string>().empty());
+        EXPECT_GE(map.at("artifact_ratio").get<double>(), 0);
+        used += map.at("resolution").get<int>() * map.at("resolution").get<int>();
+    }
+    EXPECT_LE(used, 300000);
+    EXPECT_EQ(stats.at("budget").at("used_texels"), used);
+    EXPECT_EQ(stats.at("budget").at("texels"), 300000);
+
+    const auto replayed = tests::runProgram("shadow_demo", {"--replay", trace});
+    EXPECT_EQ(replayed.exitCode, 0) << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("every decision the same"));
+    std::ofstream(trace, std::ios::app) << "x";
+    const auto damaged = tests::runProgram("shadow_demo", {"--replay", trace});
+    EXPECT_EQ(damaged.exitCode, 1);
+    EXPECT_THAT(damaged.err, HasSubstr(trace + ": "));
 }
 
 TEST(ShadowDemo, RefusesBadInputInOneSentence) {
@@ -88,6 +123,11 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
         {{"--resolution", "0"}, "--resolution is \"0\""},
         {{"--resolution", "-8"}, "--resolution is \"-8\""},
         {{"--resolution", "1000000"}, "what the driver allows"},
+        {{"--budget-texels", "0"}, "budget_texels: 0: must be in [1, 1e+12]"},
+        {{"--budget-texels", "-4"}, "budget_texels: -4: must be in"},
+        {{"--replay", file}, file},
+        {{"--replay", "/no/such.trace"}, "/no/such.trace"},
+        {{"--trace", file, "--resolution", "64"}, "--trace: nothing was recorded"},
         {{"--radius", "nan"}, "radius is nan"},
         {{"--radius", "-1"}, "radius is -1"},
         {{"--radius-uv", "1.5"}, "no wider than the map"},

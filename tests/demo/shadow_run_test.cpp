@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -248,6 +250,131 @@ TEST(ShadowRun, PictureIsAntialiasedAndLeavesTheFrameAsItWas) {
     EXPECT_EQ(picture.height, 54);
     EXPECT_EQ(frame.widthPx(), 96);
     EXPECT_EQ(frame.readVisibility().values, before);
+}
+
+std::int64_t texelsOf(const ShadowRun& run) {
+    std::int64_t sum = 0;
+    for (const demo::ChosenResolution& map : run.maps())
+        sum += std::int64_t{map.resolution} * map.resolution;
+    return sum;
+}
+
+TEST(SeveralMaps, EachHasItsOwnSizeAndTogetherTheyKeepToTheBudget) {
+    renderer::Renderer frame(gl(), renderer::makeScene("lamps"), 160, 90);
+    ShadowRun::Settings settings = settingsAt(demo::chooseSoftness(frame, {}, {}).radiusUv, 3.47);
+    ShadowRun run(frame, gl(), settings);
+    run.settle();
+    ASSERT_EQ(run.maps().size(), 8U) << "the sun, six faces of a cube, a spot";
+    EXPECT_FALSE(run.budget());
+    std::set<int> sizes;
+    for (std::size_t map = 0; map < run.maps().size(); ++map) {
+        sizes.insert(run.maps()[map].resolution);
+        EXPECT_EQ(frame.shadowConstants(map).map.x, static_cast<float>(run.maps()[map].resolution))
+            << "what is drawn";
+    }
+    EXPECT_GE(sizes.size(), 3U);
+    EXPECT_LT(frame.shadowConstants(7).kernel.x, frame.shadowConstants(1).kernel.x)
+        << "each lamp keeps its own softness";
+
+    // Its upper face sees but a roof's underside, its rear is behind the posts.
+    const auto unseen = std::ranges::find(run.maps(), 0, &demo::ChosenResolution::need);
+    ASSERT_NE(unseen, run.maps().end());
+    EXPECT_EQ(unseen->reason, "no penumbra of it in view");
+    EXPECT_LT(unseen->resolution, 512);
+
+    const double worstWithout = std::ranges::max(run.maps(), {}, [](const auto& map) {
+                                    return map.artifactRatio;
+                                }).artifactRatio;
+    settings.budgetTexels = texelsOf(run) / 2;
+    run.change(settings);
+    for (int i = 0; i < 3; ++i) {
+        run.step();
+        EXPECT_LE(texelsOf(run), *settings.budgetTexels) << "from the next frame on";
+    }
+    ASSERT_TRUE(run.budget());
+    EXPECT_TRUE(run.budget()->feasible);
+    EXPECT_EQ(run.budget()->used, static_cast<std::uint64_t>(texelsOf(run)));
+    EXPECT_GT(run.budget()->wanted, static_cast<std::uint64_t>(*settings.budgetTexels));
+    double worst = 0;
+    for (const demo::ChosenResolution& map : run.maps()) worst = std::max(worst, map.artifactRatio);
+    EXPECT_GT(worst, worstWithout);
+    // Half the texels for all alike would be sqrt 2; a level of sqrt 2 may come on top.
+    EXPECT_LE(worst, 2.001 * std::max(worstWithout, 1.0));
+
+    settings.resolution = 256;
+    run.change(settings);
+    run.step();
+    for (const demo::ChosenResolution& map : run.maps()) EXPECT_EQ(map.resolution, 256);
+    EXPECT_FALSE(run.budget());
+}
+
+TEST(SeveralMaps, CascadesAreSizedByWhatTheyServe) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard:cascades=3"), 320, 180);
+    ShadowRun run(frame, gl(), settingsAt(demo::chooseSoftness(frame, {}, {}).radiusUv, 3.47));
+    run.settle();
+    ASSERT_EQ(run.maps().size(), 3U);
+    for (std::size_t map = 0; map < 3; ++map) {
+        const demo::ChosenResolution& chosen = run.maps()[map];
+        if (chosen.need == 0) continue;
+        // Nobody asks for more than the law, which counts in the cascade's own extent; a bin of
+        // 2^(1/4), then a level.
+        const double law = 3.47 / static_cast<double>(frame.shadowConstants(map).kernel.x);
+        const double asked = std::max(1.19 * law, 1.0 * chosen.detailTexels);
+        EXPECT_LE(chosen.need, std::ceil(asked)) << map;
+    }
+}
+
+TEST(SeveralMaps, OneMapKeepsToABudgetToo) {
+    renderer::Renderer frame(gl(), renderer::makeScene("yard"), 160, 90);
+    ShadowRun::Settings settings = settingsAt(0.01, 3.47);
+    ShadowRun run(frame, gl(), settings);
+    run.settle();
+    const int free = run.chosen().resolution;
+    settings.budgetTexels = std::int64_t{free} * free;
+    run.change(settings);
+    run.step();
+    EXPECT_EQ(run.chosen().resolution, free) << "enough: nothing changes, without any data";
+    settings.budgetTexels = std::int64_t{free} * free - 1;
+    run.change(settings);
+    run.step();
+    EXPECT_LT(run.chosen().resolution, free);
+    EXPECT_THAT(run.chosen().reason, HasSubstr("budget"));
+    EXPECT_GT(run.chosen().minRadiusUv, 0) << "the filter is enlarged instead";
+    settings.budgetTexels = 1;
+    run.change(settings);
+    run.step();
+    EXPECT_FALSE(run.budget()->feasible);
+    EXPECT_EQ(run.chosen().resolution, 64) << "the smallest of all";
+    settings.budgetTexels.reset();
+    run.change(settings);
+    for (int i = 0; i < 3; ++i) run.step();
+    EXPECT_EQ(run.chosen().resolution, free);
+    for (const std::int64_t bad : {std::int64_t{0}, std::int64_t{-7}}) {
+        settings.budgetTexels = bad;
+        EXPECT_EQ(messageOf<std::invalid_argument>([&] { run.change(settings); }),
+                  "budget is " + std::to_string(bad) + " texels, must be at least 1");
+    }
+    run.step();
+    EXPECT_EQ(run.chosen().resolution, free);
+}
+
+TEST(SeveralMaps, AreRecordedAndDecidedAgainTheSame) {
+    renderer::Renderer frame(gl(), renderer::makeScene("lamps"), 96, 54);
+    ShadowRun::Settings settings = settingsAt(demo::chooseSoftness(frame, {}, {}).radiusUv, 3.47);
+    settings.sizing.crossFadeFrames = 4;
+    ShadowRun run(frame, gl(), settings);
+    run.startTrace(1 << 20);
+    run.settle();
+    settings.budgetTexels = 1'000'000;
+    settings.sizing.percentile = 0.9;
+    run.change(settings);
+    for (int i = 0; i < 6; ++i) run.step(nullptr, i == 3);
+    ASSERT_TRUE(run.trace());
+    EXPECT_GE(run.trace()->frames(), 8U);
+    EXPECT_EQ(run.trace()->lost(), 0U);
+    const auto report = resolution_controller::replay(run.trace()->bytes());
+    EXPECT_TRUE(report.same) << report.problem;
+    EXPECT_EQ(report.frames, run.trace()->frames());
 }
 
 std::string withoutSpace(const std::string& file) {

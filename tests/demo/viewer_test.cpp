@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/headless_gl.h"
+#include "tests/project_folders.h"
 #include "tests/temporary_folder.h"
 #include "tests/thrown_message.h"
 
@@ -56,6 +57,56 @@ TEST(Viewer, ShadersThatDoNotCompileLeaveThePictureAndTheStateAsTheyWere) {
     EXPECT_EQ(viewer.state().technique, "pcf_disc");
     viewer.step();
     EXPECT_EQ(viewer.picture(1).values, before.values);
+}
+
+// What chooses the size is read again with the rest.
+TEST(Viewer, ReloadsTheShadersOfTheDemand) {
+    ViewerState state = smallState(View::demand);
+    state.resolution.reset();
+    state.radiusUv = 0.05;
+    state.technique = "pcss";
+    demo::Viewer viewer(gl(), state, std::nullopt, 96, 54);
+    viewer.settle();
+    EXPECT_GT(viewer.run().chosen().need, 0);
+    const renderer::ByteImage before = viewer.picture(1);
+    renderer::ShaderLibrary::Files files = renderer::ShaderLibrary::embedded().files();
+    files["passes/detail.comp"] += "oops";
+    EXPECT_THAT(messageOf([&] { viewer.reload(renderer::ShaderLibrary(files)); }),
+                HasSubstr("passes/detail.comp"));
+    viewer.settle();
+    EXPECT_EQ(viewer.picture(1).values, before.values) << "the last good ones stay";
+
+    files = renderer::ShaderLibrary::embedded().files();
+    const std::string begin = "float pixelDemand(ivec2 pixel) {";
+    std::string& demand = files["shared/pixel_demand.glsl"];
+    const auto at = demand.find(begin);
+    ASSERT_NE(at, std::string::npos);
+    demand.insert(at + begin.size(), "if (pixel.x >= 0) return -1.0;");
+    viewer.reload(renderer::ShaderLibrary(files));
+    viewer.settle();
+    EXPECT_THAT(viewer.run().chosen().reason, HasSubstr("nothing visible in penumbra"));
+    EXPECT_NE(viewer.picture(1).values, before.values) << "no pixel is painted";
+}
+
+TEST(Viewer, TakesAnotherSlopeOrKeepsTheLastOne) {
+    demo::Viewer viewer(gl(), smallState(View::picture), std::nullopt, 32, 18);
+    EXPECT_EQ(viewer.slope().slope.c, 3.47);
+    const auto file =
+        tests::sourceFolder() / "docs/results/software-rasteriser/simulated-slope.json";
+    viewer.useSlope(file);
+    EXPECT_NEAR(viewer.slope().slope.c, 3.22, 0.005) << "as README states it";
+    EXPECT_NEAR(static_cast<double>(viewer.run().demandRule().c), viewer.slope().slope.c, 1e-6);
+    EXPECT_THAT(messageOf([&] { viewer.useSlope("/no/such/slope.json"); }),
+                HasSubstr("/no/such/slope.json"));
+    EXPECT_NEAR(viewer.slope().slope.c, 3.22, 0.005);
+    // For another audience the same file is read again.
+    ViewerState state = viewer.state();
+    state.audience.detection = 0.1;
+    viewer.show(state);
+    EXPECT_EQ(viewer.slope().file, file.string());
+    EXPECT_GT(viewer.slope().slope.c, 4);
+    viewer.useSlope(std::nullopt);
+    EXPECT_EQ(viewer.slope().file, "");
 }
 
 TEST(Viewer, SplitShowsOneFrameOnEachSideOfTheLine) {
@@ -155,6 +206,7 @@ TEST(ViewerState, IsReadAsItWasWritten) {
              .compareWith = 128,
              .radiusM = 0.25,
              .audience = {.detection = 0.1, .people = 0.9},
+             .budgetTexels = 5'000'000'000,
              .view = View::difference,
              .splitAt = 0.25F,
              .gain = 8,
@@ -188,10 +240,27 @@ TEST(ViewerState, NamesFieldValueAndRuleOfABadFile) {
     EXPECT_THAT(readWith("\"pcf_disc\"", "\"pcf\""), HasSubstr("pcf"));
     EXPECT_THAT(readWith("4096", "0"), HasSubstr("compare_with: 0: must be at least 1"));
     EXPECT_THAT(readWith("\"gain\": 4.0", "\"gain\": 400"), HasSubstr("gain: 400"));
+    EXPECT_THAT(readWith("\"budget_texels\": null", "\"budget_texels\": 0"),
+                HasSubstr("budget_texels: 0: must be in [1, 1e+12]"));
+    EXPECT_THAT(readWith("\"budget_texels\": null", "\"budget_texels\": -1"),
+                HasSubstr("budget_texels"));
     EXPECT_THAT(readWith("\"parameters\": {}", "\"parameters\": {\"hart\": {}}"),
                 HasSubstr("hart"));
     EXPECT_THAT(readWith("state 1.0", "state 2.0"), HasSubstr("schema"));
     EXPECT_THAT(readWith("\"panel\"", "\"pannel\""), HasSubstr("panel"));
+}
+
+TEST(ViewerState, ChangesOneOptionOfAScene) {
+    using demo::sceneOption, demo::withSceneOption;
+    EXPECT_EQ(withSceneOption("yard", "cascades", 4, 1), "yard:cascades=4");
+    EXPECT_EQ(withSceneOption("yard:cascades=4:lamps=2", "cascades", 3, 1),
+              "yard:lamps=2:cascades=3");
+    EXPECT_EQ(withSceneOption("yard:cascades=4:lamps=2", "lamps", 0, 0), "yard:cascades=4");
+    EXPECT_EQ(withSceneOption("yard", "lamps", 0, 0), "yard");
+    EXPECT_EQ(sceneOption("yard:cascades=4:lamps=2", "cascades", 1), 4);
+    EXPECT_EQ(sceneOption("yard:cascades=4:lamps=2", "lamps", 0), 2);
+    EXPECT_EQ(sceneOption("yard:cascades=", "cascades", 1), 1);
+    EXPECT_EQ(sceneOption("lamps", "lamps", 0), 0);
 }
 
 TEST(ViewerKeys, ChangeWhatTheySay) {

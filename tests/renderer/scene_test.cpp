@@ -83,11 +83,17 @@ std::string refusal(const std::string& source) {
 TEST(Scene, RefusesUnknownOptionsAndCountsInOneSentence) {
     EXPECT_EQ(refusal("yard:colour=red"),
               "scene \"yard:colour=red\": option \"colour=red\" is not known; known are "
-              "triangles=COUNT and cascades=COUNT");
+              "triangles=COUNT, cascades=COUNT and lamps=COUNT");
     for (const char* count : {"", "0", "9", "2.5"})
         EXPECT_EQ(refusal("yard:cascades=" + std::string(count)),
                   "scene \"yard:cascades=" + std::string(count) + "\": cascades is \"" + count +
                       "\", must be a whole number from 1 to 8");
+    for (const char* count : {"", "0", "64", "-1"})
+        EXPECT_EQ(refusal("yard:lamps=" + std::string(count)),
+                  "scene \"yard:lamps=" + std::string(count) + "\": lamps is \"" + count +
+                      "\", must be a whole number from 1 to 63");
+    EXPECT_NE(refusal("lamps:lamps=62").find("from 1 to 61"), std::string::npos) << "two are there";
+    EXPECT_EQ(renderer::makeScene("lamps:lamps=61").lamps.size(), renderer::kMostLamps);
     const renderer::Scene both = renderer::makeScene("city:cascades=3:triangles=64000");
     EXPECT_EQ(both.cascades, 3);
     EXPECT_GT(casterTriangles(both), 50000U);

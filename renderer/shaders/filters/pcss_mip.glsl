@@ -16,6 +16,11 @@ SHARED_FUNCTION real4 momentsWithin(sampler2DArray map, ShadowReceiver receiver,
     return mipMean(map, receiver.uv, radius, shadow);
 }
 
+SHARED_FUNCTION real penumbraRadiusUv(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
+    real depth = biasedDepth(receiver, shadow, PARAMETER_bias_texels, real(0.0), real(0.0));
+    return estimatedRadiusUv(map, receiver, depth, PARAMETER_least_variance, PARAMETER_distance, shadow);
+}
+
 SHARED_FUNCTION real filterVisibility(sampler2DArray map, ShadowReceiver receiver, ShadowConstants shadow) {
     real widest = widestPenumbraUv(PARAMETER_distance, shadow);
     if (!reachesMap(receiver.uv, mipReachUv(widest, shadow))) return real(1.0);

@@ -16,6 +16,12 @@ SHARED_FUNCTION real4 momentsWithin(usampler2DArray map, ShadowReceiver receiver
     return meanOfBox(map, receiver.uv, real(0.86602540378443865) * radius, shadow);  // a box as soft as the disc
 }
 
+SHARED_FUNCTION real penumbraRadiusUv(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
+    real depth = biasedDepth(receiver, shadow, PARAMETER_bias_texels, real(0.0), real(1.0) / summedUnits(shadow));
+    real least = PARAMETER_least_variance + summedVarianceError(shadow);
+    return estimatedRadiusUv(map, receiver, depth, least, PARAMETER_distance, shadow);
+}
+
 SHARED_FUNCTION real filterVisibility(usampler2DArray map, ShadowReceiver receiver, ShadowConstants shadow) {
     real widest = widestPenumbraUv(PARAMETER_distance, shadow);
     if (!reachesMap(receiver.uv, mipReachUv(widest, shadow))) return real(1.0);

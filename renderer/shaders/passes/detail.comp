@@ -21,7 +21,7 @@ const int kElongation = 3;
 const int kReach = kElongation * WIDEST_TEXELS;
 // Share of the light that a thin shadow takes away if it is to be kept: chosen by eye.
 const float kShows = 0.02;
-// As the default of the techniques that compare depths.
+// More than a rasteriser moves a depth; a caster that throws a shadow of its own stands farther before the receiver.
 const float kBiasTexels = 1.0 / 32.0;
 
 // Before the receiver's plane. `texel` is of the finer map.

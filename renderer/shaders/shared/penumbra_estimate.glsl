@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The radius of a penumbra from means over the widest kernel, without looking at one blocker. Needs receiver.glsl.
+// The radius of a penumbra from means over the widest kernel, without looking at one blocker. Needs receiver.glsl, depth_compare.glsl
+// and taps.glsl.
 // B. Yang, Z. Dong, J. Feng, H.-P. Seidel, J. Kautz, "Variance soft shadow mapping", 2010, equations 3 to 5: what lies
 // before the receiver has the mean z_b, the rest lies at the receiver d, and Chebyshev's bound p is the rest's share:
 // mean = p d + (1 - p) z_b, so d - z_b = (d - mean) / (1 - p) = (d - mean) + variance / (d - mean).
@@ -21,4 +22,26 @@ SHARED_FUNCTION real radiusOfGap(real gap, real distance, ShadowReceiver receive
 // The widest one: no blocker lies farther before the receiver than the light does. As in prefilterConstants().
 SHARED_FUNCTION real widestPenumbraUv(real distance, ShadowConstants shadow) {
     return clamp(max(shadow.kernel.x / distance, shadow.kernel.y), real(0.0), real(1.0));
+}
+
+// Vogel's taps stand for the filter where a pass has the depths alone.
+const int kEstimateTaps = 32;
+
+// The radius from the depths that the map is made of, before any least radius; negative where nothing is in the way.
+// Without what a map may add to the squares for the slope of its texels.
+SHARED_FUNCTION real estimatedRadiusUv(sampler2D map, ShadowReceiver receiver, real depth, real leastVariance,
+                                       real distance, ShadowConstants shadow) {
+    real widest = widestPenumbraUv(distance, shadow);
+    if (!reachesMap(receiver.uv, widest)) return real(-1.0);
+    real mean = real(0.0);
+    real meanSquare = real(0.0);
+    for (int i = 0; i < kEstimateTaps; ++i) {
+        real2 texel = floor((receiver.uv + vogelTap(i, kEstimateTaps) * widest) * shadow.map.x);
+        bool inside = texel.x >= real(0.0) && texel.y >= real(0.0) && texel.x < shadow.map.x && texel.y < shadow.map.x;
+        real caster = inside ? casterOf(real(texelFetch(map, int2(int(texel.x), int(texel.y)), 0).x)) : real(1.0);
+        mean += caster;
+        meanSquare += caster * caster;
+    }
+    real gap = gapToBlockers(mean / real(kEstimateTaps), meanSquare / real(kEstimateTaps), depth, leastVariance);
+    return gap > real(0.0) ? min(shadow.kernel.x * gap / distance, real(1.0)) : real(-1.0);
 }
