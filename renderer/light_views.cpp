@@ -66,6 +66,18 @@ std::string validate(const Lamp& lamp) {
     return "";
 }
 
+void checkLights(int cascades, std::span<const Lamp> lamps) {
+    if (cascades < 1 || cascades > kMostCascades)
+        throw std::invalid_argument("cascades is " + std::to_string(cascades) +
+                                    ", must be in [1, " + std::to_string(kMostCascades) + "]");
+    if (lamps.size() > kMostLamps)
+        throw std::invalid_argument("the scene has " + std::to_string(lamps.size()) +
+                                    " lamps, must be at most " + std::to_string(kMostLamps));
+    for (const Lamp& lamp : lamps)
+        if (const std::string problem = validate(lamp); !problem.empty())
+            throw std::invalid_argument(problem);
+}
+
 std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light) {
     if (const std::string problem = validate(lamp); !problem.empty())
         throw std::invalid_argument(problem);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ inline constexpr double kReachOfSoftness = 4;
 
 /// A sentence that names field, value and rule; empty for a lamp that can be drawn.
 std::string validate(const Lamp& lamp);
+
+/// Throws std::invalid_argument for more cascades or lamps than a frame has room for, and for a
+/// lamp that cannot be drawn.
+void checkLights(int cascades, std::span<const Lamp> lamps);
 
 /// One window of a spot, six of a point. They are wider than what they serve by the reach of a
 /// kernel, so that it finds on the same map what lies beyond a face's edge. Throws

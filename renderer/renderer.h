@@ -163,6 +163,8 @@ class Renderer {
     void fitViews();
     void makeVisibilities();
     void uploadScene();
+    /// Throws std::invalid_argument for settings that are out of range or of other maps.
+    void checkSettings(const FrameSettings& settings) const;
     void updateConstants(const FrameSettings& settings);
     void setShadowConstants(const FrameSettings& settings, std::size_t view, int resolution);
     void ensureMap(std::size_t view, int resolution);

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// The passes of a frame, in their order.
+#include <array>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <memory>
+#include <stdexcept>
+
+#include "renderer/renderer.h"
+#include "renderer/uniform_block.h"
+
+namespace renderer {
+namespace {
+
+
+/// A pass in the GL debugger, on the clock, and nothing else.
+class PassScope {
+  public:
+    PassScope(Pass pass, PassClock* clock) : pass_(pass), clock_(clock) {
+        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, std::string(toText(pass)).c_str());
+        if (clock_ != nullptr) clock_->begin(pass_);
+    }
+    ~PassScope() {
+        if (clock_ != nullptr) clock_->end(pass_);
+        glPopDebugGroup();
+    }
+    PassScope(const PassScope&) = delete;
+    PassScope& operator=(const PassScope&) = delete;
+
+  private:
+    Pass pass_;
+    PassClock* clock_;
+};
+
+void bindTextures(std::initializer_list<GLuint> names) {
+    GLuint unit = 0;
+    for (const GLuint name : names) glBindTextureUnit(unit++, name);
+}
+
+/// As lit.frag has them.
+std::vector<glm::vec4> lampConstants(const std::vector<Lamp>& lamps, glm::vec3 eye) {
+    std::vector<glm::vec4> constants;
+    for (const Lamp& lamp : lamps) {
+        const bool spot = lamp.kind == Lamp::Kind::spot;
+        constants.emplace_back(lamp.position - eye,
+                               spot ? std::cos(glm::radians(lamp.coneDeg) / 2) : -2.0F);
+        constants.emplace_back(spot ? glm::normalize(lamp.target - lamp.position) : glm::vec3(0),
+                               0);
+        constants.emplace_back(lamp.colour, 0);
+    }
+    return constants;
+}
+
+void throwOnGlError() {
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR)
+        throw std::runtime_error("rendering: the driver reports GL error " + std::to_string(error) +
+                                 (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
+}
+
+}  // namespace
+
+void Renderer::render(const FrameSettings& settings, PassClock* clock) {
+    checkSettings(settings);
+    const Technique& technique =
+        settings.technique != nullptr ? *settings.technique : techniques().front();
+    prepare(technique);
+    if (technique.prefilter == Prefilter::none) mapFilter_.release();
+    if (!hasLayers(technique)) forgetDepths();  // their count is of an earlier light
+    int smallest = info_.maxResolution, largest = 0;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        const MapSettings map = mapSettings(settings, view);
+        const int other = map.fadeWeight < 1 ? map.fadeFrom : map.resolution;
+        ensureMap(view, std::max(map.resolution, other));
+        smallest = std::min({smallest, map.resolution, other});
+        largest = std::max({largest, map.resolution, other});
+    }
+    // Maps of several sizes are filtered in the same textures.
+    filterSpare_ = smallest == largest ? reservedEdge_ : std::max(largest, reservedEdge_);
+    lastTechnique_ = &technique;
+    shadows_.resize(views_.size());
+    while (shadowBlocks_.size() < views_.size())
+        shadowBlocks_.push_back(makeUniformBlock(f32::ShadowConstants{}, "shadow constants"));
+    updateConstants(settings);
+    {
+        const PassScope scope(Pass::prepass, clock);
+        drawPrepass();
+    }
+    clearVisibilities();
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        const MapSettings map = mapSettings(settings, view);
+        if (map.fadeWeight < 1) {
+            // First, so that the map of this frame is the one that later passes find.
+            setShadowConstants(settings, view, map.fadeFrom);
+            drawShadows(settings, technique, view, 1, clock);
+            setShadowConstants(settings, view, map.resolution);
+        }
+        drawShadows(settings, technique, view, map.fadeWeight, clock);
+    }
+    if (settings.lit) {
+        if (views_.size() > 1) bindConstants();
+        const PassScope scope(Pass::lit, clock);
+        drawLit();
+    }
+    throwOnGlError();
+}
+
+void Renderer::drawShadows(const FrameSettings& settings, const Technique& technique,
+                           std::size_t view, float weight, PassClock* clock) {
+    bindConstants(view);
+    {
+        const PassScope scope(Pass::depth, clock);
+        drawCasters(maps_[view].target, static_cast<int>(shadows_[view].map.x), view);
+    }
+    if (technique.prefilter != Prefilter::none) {
+        const PassScope scope(Pass::prefilter, clock);
+        const ParameterValues parameters = withLayers(
+            technique, settings.parameters.value_or(technique.standardParameters()), view);
+        mapFilter_.run(technique, parameters, shadows_[view], maps_[view].depths, filterSpare_);
+    }
+    const PassScope scope(Pass::lookup, clock);
+    drawLookup(technique, view, weight);
+}
+
+void Renderer::drawCasters(const Framebuffer& target, int edge, std::size_t view) const {
+    const bool lamp = views_.at(view).window.lampAt.has_value();
+    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    glViewport(0, 0, edge, edge);
+    // The sub-rectangle alone: clearing a large texture costs more than drawing a small map.
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, edge, edge);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    if (!lamp) glEnable(GL_DEPTH_CLAMP);
+    const float farthest = 1;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glUseProgram(lamp ? lampDepthProgram_.name() : depthProgram_.name());
+    glBindVertexArray(geometry_.name());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indexCount_), GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_DEPTH_CLAMP);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+}
+
+ParameterValues Renderer::withLayers(const Technique& technique, const ParameterValues& asked,
+                                     std::size_t view) {
+    if (!hasLayers(technique)) return asked;
+    f32::ShadowConstants& shadow = shadows_[view];
+    while (depthCounters_.size() < views_.size())
+        depthCounters_.push_back(std::make_unique<DepthCounter>());
+    const Layers layers = placeLayers(
+        technique, asked,
+        depthCounters_[view]->count(shaders_, maps_[view].depths, static_cast<int>(shadow.map.x)));
+    useLayers(technique, layers, shadow);
+    fillUniformBlock(shadowBlocks_[view], shadow);
+    ParameterValues values = asked;
+    values[technique.parameterSlot("layers").value()] = static_cast<float>(layers.count);
+    return values;
+}
+
+void Renderer::forgetDepths() {
+    for (const auto& counter : depthCounters_) counter->forget();
+}
+
+void Renderer::drawPrepass() {
+    glBindFramebuffer(GL_FRAMEBUFFER, prepassTarget_.name());
+    glViewport(0, 0, widthPx_, heightPx_);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    const std::array<float, 4> none{};
+    const float farthest = 1;
+    for (GLint target = 0; target < 4; ++target) glClearBufferfv(GL_COLOR, target, none.data());
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glEnable(GL_FRAMEBUFFER_SRGB);  // albedos
+    glUseProgram(prepassProgram_.name());
+    glBindVertexArray(geometry_.name());
+    for (const DrawRange& range : ranges_) {
+        const Material& material = range.material;
+        const glm::vec4 albedo(material.albedo, material.gloss);
+        const glm::vec4 second(material.second, material.periodM);
+        glUniform4fv(0, 1, glm::value_ptr(albedo));
+        glUniform4fv(1, 1, glm::value_ptr(second));
+        glUniform1ui(2, static_cast<GLuint>(material.pattern));
+        glDrawElements(GL_TRIANGLES, range.indices, GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(range.firstIndex * sizeof(std::uint32_t)));
+    }
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::clearVisibilities() {
+    const float lit = 1;
+    for (const LightView& view : views_)
+        if (view.window.part != kAllReceivers)
+            glClearNamedFramebufferfv(visibilityTargets_[view.light].name(), GL_COLOR, 0, &lit);
+}
+
+void Renderer::drawLookup(const Technique& technique, std::size_t view, float weight) {
+    if (weight < 1) {
+        glEnable(GL_BLEND);
+        glBlendColor(0, 0, 0, weight);
+        glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, visibilityTargets_[views_[view].light].name());
+    glViewport(0, 0, widthPx_, heightPx_);
+    const bool filtered = technique.prefilter != Prefilter::none;
+    bindTextures({positions_.name(), planes_.name(),
+                  filtered ? mapFilter_.map() : maps_[view].depths.name()});
+    glUseProgram(lookupProgram(technique, views_[view].window.part != kAllReceivers).name());
+    glBindVertexArray(noGeometry_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+}
+
+void Renderer::drawLit() {
+    glBindFramebuffer(GL_FRAMEBUFFER, litTarget_.name());
+    glViewport(0, 0, widthPx_, heightPx_);
+    bindTextures({positions_.name(), planes_.name(), normals_.name(), albedos_.name(),
+                  visibilities_[0].name()});
+    if (scene_.lamps.empty()) {
+        glUseProgram(litProgram_.name());
+    } else {
+        glUseProgram(lampLitProgram_.name());
+        glBindTextureUnit(5, lampVisibilities_.name());
+        const std::vector<glm::vec4> lamps = lampConstants(scene_.lamps, glm::vec3(view_.eye));
+        glUniform1i(0, static_cast<GLint>(scene_.lamps.size()));
+        glUniform4fv(1, static_cast<GLsizei>(lamps.size()), glm::value_ptr(lamps.front()));
+    }
+    glBindVertexArray(noGeometry_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace renderer
