@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -16,6 +17,36 @@
 namespace {
 
 constexpr int kWidth = 120, kHeight = 72;
+
+/// Visibilities against what is expected of them, pixel by pixel.
+class Errors {
+  public:
+    void add(double visibility, double expected) {
+        const double error = visibility - expected;
+        if (expected <= 0 || expected >= 1) {
+            outside_ = std::max(outside_, std::abs(error));
+            return;
+        }
+        squares_ += error * error;
+        ++penumbra_;
+    }
+
+    /// What the truth says of its own error is right: over 100 pixels and more an estimate of a
+    /// standard deviation is off by less than a third, pixels at the ends of the profile are no
+    /// Gaussians. Outside the penumbra there is none.
+    void expectAsSaid(double standardError) const {
+        ASSERT_GT(penumbra_, kWidth);
+        const double rms = std::sqrt(squares_ / penumbra_);
+        EXPECT_GT(rms, 0.6 * standardError);
+        EXPECT_LT(rms, 1.5 * standardError);
+        EXPECT_LT(standardError, 0.01);
+        EXPECT_LT(outside_, 1e-6);
+    }
+
+  private:
+    double squares_ = 0, outside_ = 0;
+    int penumbra_ = 0;
+};
 
 TEST(AreaLightTruth, OfAStraightEdgeIsTheDiscsProfile) {
     const renderer::HeadlessContext context;
@@ -30,8 +61,7 @@ TEST(AreaLightTruth, OfAStraightEdgeIsTheDiscsProfile) {
     const double radiusM = tests::kPlateHeight * std::tan(10 * std::numbers::pi / 180);
     const double extent = frame.window().extentM;
     const tests::PixelReceivers receivers(frame);
-    double squares = 0;
-    int penumbra = 0;
+    Errors errors;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const auto receiver = receivers.at(x, y);
@@ -39,22 +69,10 @@ TEST(AreaLightTruth, OfAStraightEdgeIsTheDiscsProfile) {
             const auto place =
                 tests::placeAtEdge(frame.window(), kTurnDeg, glm::dvec2(receiver->uv));
             if (std::abs(place.alongUv) > place.halfLengthUv - 2 * radiusM / extent) continue;
-            const double expected = tests::discProfile(place.distanceUv * extent / radiusM);
-            const double error = static_cast<double>(truth.visibility.at(x, y)) - expected;
-            if (expected <= 0 || expected >= 1) {
-                EXPECT_NEAR(error, 0, 1e-6) << x << ", " << y;
-                continue;
-            }
-            squares += error * error;
-            ++penumbra;
+            errors.add(static_cast<double>(truth.visibility.at(x, y)),
+                       tests::discProfile(place.distanceUv * extent / radiusM));
         }
-    ASSERT_GT(penumbra, kWidth);
-    // What it says of its own error is right: over 100 pixels and more an estimate of a standard
-    // deviation is off by less than a third, pixels at the ends of the profile are no Gaussians.
-    const double rms = std::sqrt(squares / penumbra);
-    EXPECT_GT(rms, 0.6 * truth.standardError);
-    EXPECT_LT(rms, 1.5 * truth.standardError);
-    EXPECT_LT(truth.standardError, 0.01);
+    errors.expectAsSaid(truth.standardError);
 }
 
 TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
@@ -73,8 +91,8 @@ TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
         if (isDisc) lamp.facing = glm::vec3(0, -1, 0);
         const demo::AreaLightTruth truth =
             demo::areaLightTruth(frame, {.lamp = lamp, .raysEdge = 12});
-        double squares = 0;
-        int penumbra = 0;
+        SCOPED_TRACE(isDisc ? "disc" : "ball");
+        Errors errors;
         for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) {
                 if (!receivers.at(x, y) || receivers.heightAt(x, y) > 0.01) continue;
@@ -97,21 +115,9 @@ TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
                     const double off = glm::dot(across, glm::normalize(middle - place));
                     cut = std::tan(std::asin(off)) / std::tan(std::asin(sine));
                 }
-                const double expected = tests::discProfile(cut);
-                const double error = static_cast<double>(truth.visibility.at(x, y)) - expected;
-                if (expected <= 0 || expected >= 1) {
-                    EXPECT_NEAR(error, 0, 1e-6) << x << ", " << y;
-                    continue;
-                }
-                squares += error * error;
-                ++penumbra;
+                errors.add(static_cast<double>(truth.visibility.at(x, y)), tests::discProfile(cut));
             }
-        ASSERT_GT(penumbra, kWidth) << isDisc;
-        // As for the sun.
-        const double rms = std::sqrt(squares / penumbra);
-        EXPECT_GT(rms, 0.6 * truth.standardError) << isDisc;
-        EXPECT_LT(rms, 1.5 * truth.standardError) << isDisc;
-        EXPECT_LT(truth.standardError, 0.01) << isDisc;
+        errors.expectAsSaid(truth.standardError);
     }
 }
 
