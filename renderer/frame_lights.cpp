@@ -48,27 +48,37 @@ void Renderer::setLightViews(std::span<const LightView> views) {
     if (views.size() != fitted_.size())
         throw std::invalid_argument("light views: " + std::to_string(views.size()) +
                                     " were given, the scene has " + std::to_string(fitted_.size()));
-    fitted_.assign(views.begin(), views.end());
-    views_ = fitted_;
+    useViews({views.begin(), views.end()});
 }
 
 void Renderer::fitViews() {
     const ShadowWindow whole = fitShadowWindow(scene_.casters, scene_.sun);
+    std::vector<LightView> fitted;
     const bool toView = (windowFit_ == WindowFit::view || scene_.cascades > 1) && widthPx_ > 0;
     if (toView) {
-        fitted_ = sunViews(whole, scene_.casters, scene_.camera,
-                           static_cast<double>(widthPx_) / heightPx_, scene_.cascades, reachM_,
-                           windowSteps_);
+        fitted = sunViews(whole, scene_.casters, scene_.camera,
+                          static_cast<double>(widthPx_) / heightPx_, scene_.cascades, reachM_,
+                          windowSteps_);
     } else {
-        fitted_.assign(1, {});
-        fitted_.front().window = whole;
+        fitted.emplace_back();
+        fitted.front().window = whole;
     }
     for (std::size_t lamp = 0; lamp < scene_.lamps.size(); ++lamp)
         for (const LightView& view : lampViews(scene_.lamps[lamp], lamp + 1))
-            fitted_.push_back(view);
-    views_ = fitted_;
+            fitted.push_back(view);
+    useViews(std::move(fitted));
     if (shadows_.size() != views_.size()) lastTechnique_ = nullptr;
     maps_.resize(views_.size());
+}
+
+void Renderer::useViews(std::vector<LightView> fitted) {
+    fitted_ = std::move(fitted);
+    views_ = fitted_;
+    served_.clear();
+    for (const LightView& view : fitted_)
+        served_.push_back(widthPx_ > 0
+                              ? servedPixels(view, scene_.camera, surfaces_, widthPx_, heightPx_)
+                              : PixelRect());
 }
 
 void Renderer::makeVisibilities() {

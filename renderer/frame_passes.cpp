@@ -12,7 +12,6 @@
 namespace renderer {
 namespace {
 
-
 /// A pass in the GL debugger, on the clock, and nothing else.
 class PassScope {
   public:
@@ -49,6 +48,24 @@ std::vector<glm::vec4> lampConstants(const std::vector<Lamp>& lamps, glm::vec3 e
         constants.emplace_back(lamp.colour, 0);
     }
     return constants;
+}
+
+/// The lower left corner alone: clearing a large texture costs more than drawing a small map.
+void clearDepths(const Framebuffer& target, int edge) {
+    const float farthest = 1;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, edge, edge);
+    glDepthMask(GL_TRUE);
+    glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &farthest);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+/// Of a map's technique, layers among them.
+ParameterValues parametersIn(const f32::ShadowConstants& shadow) {
+    ParameterValues values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = shadow.parameters[i / 4][static_cast<glm::length_t>(i % 4)];
+    return values;
 }
 
 void throwOnGlError() {
@@ -108,15 +125,21 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
 void Renderer::drawShadows(const FrameSettings& settings, const Technique& technique,
                            std::size_t view, float weight, PassClock* clock) {
     bindConstants(view);
+    const auto edge = static_cast<int>(shadows_[view].map.x);
+    if (served_[view].empty()) {
+        clearDepths(maps_[view].target, edge);  // so that whoever reads it finds no other frame's
+        return;
+    }
     {
         const PassScope scope(Pass::depth, clock);
-        drawCasters(maps_[view].target, static_cast<int>(shadows_[view].map.x), view);
+        drawCasters(maps_[view].target, edge, view);
     }
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
-        const ParameterValues parameters = withLayers(
-            technique, settings.parameters.value_or(technique.standardParameters()), view);
-        mapFilter_.run(technique, parameters, shadows_[view], maps_[view].depths, filterSpare_);
+        enterLayers(technique, settings.parameters.value_or(technique.standardParameters()), view);
+        const VisibleSurfaces seen{
+            .positions = positions_.name(), .planes = planes_.name(), .pixels = served_[view]};
+        filterMap(technique, view, settings.filterUnseen ? nullptr : &seen);
     }
     const PassScope scope(Pass::lookup, clock);
     drawLookup(technique, view, weight);
@@ -124,28 +147,28 @@ void Renderer::drawShadows(const FrameSettings& settings, const Technique& techn
 
 void Renderer::drawCasters(const Framebuffer& target, int edge, std::size_t view) const {
     const bool lamp = views_.at(view).window.lampAt.has_value();
+    clearDepths(target, edge);
     glBindFramebuffer(GL_FRAMEBUFFER, target.name());
     glViewport(0, 0, edge, edge);
-    // The sub-rectangle alone: clearing a large texture costs more than drawing a small map.
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(0, 0, edge, edge);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
-    glDepthMask(GL_TRUE);
     if (!lamp) glEnable(GL_DEPTH_CLAMP);
-    const float farthest = 1;
-    glClearBufferfv(GL_DEPTH, 0, &farthest);
     glUseProgram(lamp ? lampDepthProgram_.name() : depthProgram_.name());
     glBindVertexArray(geometry_.name());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indexCount_), GL_UNSIGNED_INT, nullptr);
     glDisable(GL_DEPTH_CLAMP);
-    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
 }
 
-ParameterValues Renderer::withLayers(const Technique& technique, const ParameterValues& asked,
-                                     std::size_t view) {
-    if (!hasLayers(technique)) return asked;
+void Renderer::filterMap(const Technique& technique, std::size_t view,
+                         const VisibleSurfaces* seen) {
+    mapFilter_.run(technique, parametersIn(shadows_[view]), shadows_[view], maps_[view].depths,
+                   filterSpare_, seen);
+}
+
+void Renderer::enterLayers(const Technique& technique, const ParameterValues& asked,
+                           std::size_t view) {
+    if (!hasLayers(technique)) return;
     f32::ShadowConstants& shadow = shadows_[view];
     while (depthCounters_.size() < views_.size())
         depthCounters_.push_back(std::make_unique<DepthCounter>());
@@ -154,9 +177,6 @@ ParameterValues Renderer::withLayers(const Technique& technique, const Parameter
         depthCounters_[view]->count(shaders_, maps_[view].depths, static_cast<int>(shadow.map.x)));
     useLayers(technique, layers, shadow);
     fillUniformBlock(shadowBlocks_[view], shadow);
-    ParameterValues values = asked;
-    values[technique.parameterSlot("layers").value()] = static_cast<float>(layers.count);
-    return values;
 }
 
 void Renderer::forgetDepths() {
@@ -192,9 +212,8 @@ void Renderer::drawPrepass() {
 
 void Renderer::clearVisibilities() {
     const float lit = 1;
-    for (const LightView& view : views_)
-        if (view.window.part != kAllReceivers)
-            glClearNamedFramebufferfv(visibilityTargets_[view.light].name(), GL_COLOR, 0, &lit);
+    for (const Framebuffer& target : visibilityTargets_)
+        glClearNamedFramebufferfv(target.name(), GL_COLOR, 0, &lit);
 }
 
 void Renderer::drawLookup(const Technique& technique, std::size_t view, float weight) {
@@ -205,12 +224,16 @@ void Renderer::drawLookup(const Technique& technique, std::size_t view, float we
     }
     glBindFramebuffer(GL_FRAMEBUFFER, visibilityTargets_[views_[view].light].name());
     glViewport(0, 0, widthPx_, heightPx_);
+    const PixelRect& served = served_[view];
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(served.x, served.y, served.width, served.height);
     const bool filtered = technique.prefilter != Prefilter::none;
     bindTextures({positions_.name(), planes_.name(),
                   filtered ? mapFilter_.map() : maps_[view].depths.name()});
     glUseProgram(lookupProgram(technique, views_[view].window.part != kAllReceivers).name());
     glBindVertexArray(noGeometry_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "renderer/prefilter.h"
+
 namespace renderer {
 namespace {
 
@@ -29,21 +31,33 @@ GLenum glFormat(MapFormat format) {
     return GL_NONE;
 }
 
-constexpr GLuint kGroup = 32;  // invocations in a group: GROUP in the passes
+constexpr GLuint kGroup = 32;  // invocations in a group that does a row: GROUP in the passes
 
-/// Texels that an invocation does: STRIP in the passes. For a box, no more than the kernel holds
-/// (map_line.comp).
+/// Texels that an invocation does of a line: STRIP in the pass. For a box, no more than the kernel
+/// holds (map_line.comp).
 constexpr GLuint kStrip = 8;
 constexpr GLuint kShortStrip = 4;
 
-ShaderOptions withStrips(ShaderOptions options, GLuint strip) {
-    options.defines.push_back({"STRIP", std::to_string(strip)});
-    options.defines.push_back({"GROUP", std::to_string(kGroup)});
+ShaderOptions inRows() {
+    return {.defines = {{"GROUP", std::to_string(kGroup)}}, .substitutions = {}};
+}
+
+ShaderOptions inTiles(ShaderOptions options) {
+    for (ShaderDefine& define : tileDefines()) options.defines.push_back(std::move(define));
     return options;
+}
+
+bool isSeparable(Prefilter prefilter) {
+    return prefilter == Prefilter::mean || prefilter == Prefilter::logMean ||
+           prefilter == Prefilter::minMaxMean;
 }
 
 GLuint parts(GLuint whole, GLuint size) {
     return (whole + size - 1) / size;
+}
+
+void waitForTexels() {
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 std::size_t area(int edge) {
@@ -53,22 +67,23 @@ std::size_t area(int edge) {
 }  // namespace
 
 MapFilter::MapFilter(const ShaderLibrary& shaders)
-    : shaders_(shaders), convertPrograms_(techniques().size()) {}
+    : shaders_(shaders), convertPrograms_(techniques().size()), tiles_(shaders) {}
 
 void MapFilter::prepare(const Technique& technique) {
     if (technique.prefilter == Prefilter::none) return;
+    tiles_.prepare();
     Program& convert =
         convertPrograms_.at(static_cast<std::size_t>(&technique - techniques().data()));
     if (convert.name() == 0)
         convert = makeComputeProgram(shaders_, "passes/map_texel.comp",
-                                     withStrips(techniqueOptions(technique), kStrip));
+                                     inTiles(techniqueOptions(technique)));
     if (technique.prefilter == Prefilter::mips) {
         if (mipProgram_.name() == 0)
-            mipProgram_ = makeComputeProgram(shaders_, "passes/map_mip.comp", withStrips({}, 1));
+            mipProgram_ = makeComputeProgram(shaders_, "passes/map_mip.comp", inRows());
     } else if (technique.prefilter == Prefilter::sums) {
         if (sumsProgram_.name() == 0)
-            sumsProgram_ = makeComputeProgram(shaders_, "passes/map_sums.comp", withStrips({}, 1));
-    } else if (technique.prefilter != Prefilter::converted) {
+            sumsProgram_ = makeComputeProgram(shaders_, "passes/map_sums.comp", inRows());
+    } else if (isSeparable(technique.prefilter)) {
         for (const GLuint strip : {kShortStrip, kStrip}) lineProgram(technique, strip);
     }
 }
@@ -77,8 +92,8 @@ const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip) 
     Program& line =
         linePrograms_[{technique.prefilter, technique.format == MapFormat::rg16fSplit, strip}];
     if (line.name() == 0) {
-        ShaderOptions options =
-            withStrips({.defines = {splitDefine(technique)}, .substitutions = {}}, strip);
+        ShaderOptions options = inTiles({.defines = {splitDefine(technique)}, .substitutions = {}});
+        options.defines.push_back({"STRIP", std::to_string(strip)});
         options.defines.push_back(
             {"PREFILTER", std::to_string(static_cast<int>(technique.prefilter))});
         line = makeComputeProgram(shaders_, "passes/map_line.comp", options);
@@ -120,17 +135,28 @@ std::size_t MapFilter::bytes() const {
            static_cast<std::size_t>(bytesPerTexel(format_));
 }
 
-void MapFilter::dispatch(GLuint source, std::size_t target, int targetLevel, GLuint groupsX,
-                         GLuint groupsY) const {
+void MapFilter::bind(GLuint source, std::size_t target, int targetLevel) const {
     glBindTextureUnit(0, source);
     glBindImageTexture(0, textures_[target].name(), targetLevel, GL_TRUE, 0, GL_WRITE_ONLY,
                        glFormat(format_));
+}
+
+void MapFilter::dispatch(GLuint source, std::size_t target, int targetLevel, GLuint groupsX,
+                         GLuint groupsY) const {
+    bind(source, target, targetLevel);
     glDispatchCompute(groupsX, groupsY, static_cast<GLuint>(layers_));
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    waitForTexels();
+}
+
+void MapFilter::dispatch(GLuint source, std::size_t target, FilterTiles::Pass pass) const {
+    bind(source, target, 0);
+    tiles_.dispatch(pass, usedEdge_, layers_);
+    waitForTexels();
 }
 
 void MapFilter::run(const Technique& technique, const ParameterValues& parameters,
-                    const f32::ShadowConstants& shadow, const Texture& depths, int spareN) {
+                    const f32::ShadowConstants& shadow, const Texture& depths, int spareN,
+                    const VisibleSurfaces* seen) {
     prepare(technique);
     usedEdge_ = 0;
     usedLevels_ = 1;
@@ -138,10 +164,15 @@ void MapFilter::run(const Technique& technique, const ParameterValues& parameter
     const int spare = std::max(spareN - static_cast<int>(shadow.map.x), 0);
     ensureTextures(technique, edge + spare, technique.mapLayers(parameters), spareN > 0);
     usedEdge_ = edge;
+    if (seen != nullptr && isSeparable(technique.prefilter) &&
+        !FilterTiles::costsMoreThanItSaves(shadow, layers_, seen->pixels))
+        tiles_.find(shadow, layers_, *seen,
+                    lookupSpreadTexels(technique, parameters, shadow.prefilter));
+    else
+        tiles_.forget();
     glUseProgram(
         convertPrograms_.at(static_cast<std::size_t>(&technique - techniques().data())).name());
-    const auto lines = static_cast<GLuint>(edge);
-    dispatch(depths.name(), 0, 0, parts(lines, kGroup), parts(lines, kStrip));
+    dispatch(depths.name(), 0, FilterTiles::Pass::texels);
     switch (technique.prefilter) {
         case Prefilter::none:
         case Prefilter::converted:
@@ -164,13 +195,11 @@ void MapFilter::filterLines(const Technique& technique, const f32::ShadowConstan
     const int taps = kernelTaps(shadow);
     if (taps == 0) return;
     const GLuint strip = 2 * taps < static_cast<int>(kStrip) ? kShortStrip : kStrip;
-    const auto lines = static_cast<GLuint>(usedEdge_);
-    const GLuint strips = parts(lines, strip);
     glUseProgram(lineProgram(technique, strip).name());
     glUniform2i(0, 1, 0);
-    dispatch(textures_[0].name(), 1, 0, parts(strips, kGroup), lines);
+    dispatch(textures_[0].name(), 1, FilterTiles::Pass::rows);
     glUniform2i(0, 0, 1);
-    dispatch(textures_[1].name(), 0, 0, parts(lines, kGroup), strips);
+    dispatch(textures_[1].name(), 0, FilterTiles::Pass::columns);
 }
 
 void MapFilter::addMips(int levels) {

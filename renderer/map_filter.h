@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "renderer/filter_tiles.h"
 #include "renderer/gl_object.h"
 #include "renderer/image.h"
 #include "renderer/shader_library.h"
@@ -35,21 +36,28 @@ class MapFilter {
 
     /// Filters the N x N depths in the corner of `depths`. `shadow` has to be bound as the shadow
     /// block. `spareN`: textures are at least as large as for that N, so that smaller maps need no
-    /// new ones. Throws std::runtime_error where the driver has no room.
+    /// new ones. With `seen` a separable kernel may leave out what that does not look up. Throws
+    /// std::runtime_error where the driver has no room.
     void run(const Technique& technique, const ParameterValues& parameters,
-             const f32::ShadowConstants& shadow, const Texture& depths, int spareN);
+             const f32::ShadowConstants& shadow, const Texture& depths, int spareN,
+             const VisibleSurfaces* seen = nullptr);
 
     GLuint map() const { return textures_[0].name(); }
     FilteredTexels read() const;  ///< the last map
     std::size_t bytes() const;    ///< of all textures
     void release();               ///< gives the textures back
+    /// Share of the last map's tiles that were filtered. Waits for the GPU.
+    double readShare() const { return tiles_.readShare(); }
 
   private:
     const Program& lineProgram(const Technique& technique, GLuint strip);
     void ensureTextures(const Technique& technique, int edge, int layers, bool keepLarger);
+    void bind(GLuint source, std::size_t target, int targetLevel) const;
     /// Every layer, with the current program; `groups` along x and y.
     void dispatch(GLuint source, std::size_t target, int targetLevel, GLuint groupsX,
                   GLuint groupsY) const;
+    /// The tiles that a pass has to do.
+    void dispatch(GLuint source, std::size_t target, FilterTiles::Pass pass) const;
     void filterLines(const Technique& technique, const f32::ShadowConstants& shadow);
     void addMips(int levels);
     void sumUp();
@@ -59,6 +67,7 @@ class MapFilter {
     /// By prefilter, whether texels are split, and strip; made when used.
     std::map<std::tuple<Prefilter, bool, GLuint>, Program> linePrograms_;
     Program mipProgram_, sumsProgram_;
+    FilterTiles tiles_;
     Prefilter prefilter_ = Prefilter::none;
     MapFormat format_ = MapFormat::depth32f;
     int textureEdge_ = 0;

@@ -31,14 +31,19 @@ float summedUnits(float reachTexels) {
         std::exp2(std::min(std::floor(std::log2(0x1p32 / (edge * edge)) - 1e-9), 23.0)));
 }
 
+float parameterOr(const Technique& technique, const ParameterValues& parameters,
+                  std::string_view name, float absent) {
+    const auto slot = technique.parameterSlot(name);
+    return slot ? parameters[*slot] : absent;
+}
+
 }  // namespace
 
 glm::vec4 prefilterConstants(const Technique& technique, const ParameterValues& parameters,
                              float radiusUv, float minRadiusUv, int resolution) {
     if (technique.prefilter == Prefilter::none) return glm::vec4(0);
-    const auto valueOf = [&](std::string_view name, float absent) {
-        const auto slot = technique.parameterSlot(name);
-        return slot ? parameters[*slot] : absent;
+    const auto valueOr = [&](std::string_view name, float absent) {
+        return parameterOr(technique, parameters, name, absent);
     };
     const float least = fraction(minRadiusUv);
     // Of the widest kernel, where a lookup chooses: a blocker may lie as far before it as the
@@ -46,10 +51,10 @@ glm::vec4 prefilterConstants(const Technique& technique, const ParameterValues& 
     const float radius =
         technique.prefilter == Prefilter::converted
             ? 0
-            : std::max(fraction(fraction(radiusUv) / valueOf("distance", 1)), least);
+            : std::max(fraction(fraction(radiusUv) / valueOr("distance", 1)), least);
     f32::ShadowConstants constants{};
-    constants.prefilter.x = 0.5F * radius * static_cast<float>(resolution) / valueOf("samples", 1);
-    constants.prefilter.y = valueOf("gaussian", 0) != 0 ? 1 : 0;
+    constants.prefilter.x = 0.5F * radius * static_cast<float>(resolution) / valueOr("samples", 1);
+    constants.prefilter.y = valueOr("gaussian", 0) != 0 ? 1 : 0;
     float reach = std::ceil(kernelReach(constants));
     if (technique.prefilter == Prefilter::mips) {
         const float levels = levelsOfKernel(2 * constants.prefilter.x);
@@ -62,6 +67,13 @@ glm::vec4 prefilterConstants(const Technique& technique, const ParameterValues& 
     if (technique.format == MapFormat::rg16fSplit) constants.prefilter.w = 1;
     constants.prefilter.z = reach + kGuardBeyondReach;
     return constants.prefilter;
+}
+
+float lookupSpreadTexels(const Technique& technique, const ParameterValues& parameters,
+                         glm::vec4 prefilter) {
+    f32::ShadowConstants constants{};
+    constants.prefilter = prefilter;
+    return kernelReach(constants) * (parameterOr(technique, parameters, "samples", 1) - 1);
 }
 
 }  // namespace renderer

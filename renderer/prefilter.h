@@ -20,4 +20,9 @@ namespace renderer {
 glm::vec4 prefilterConstants(const Technique& technique, const ParameterValues& parameters,
                              float radiusUv, float minRadiusUv, int resolution);
 
+/// How far from a receiver's place on the map a lookup of the filtered map may lie, texels: none
+/// but for a technique with `samples` kernels side by side. `prefilter` as above.
+float lookupSpreadTexels(const Technique& technique, const ParameterValues& parameters,
+                         glm::vec4 prefilter);
+
 }  // namespace renderer

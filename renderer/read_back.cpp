@@ -56,8 +56,13 @@ FloatImage Renderer::readShadowMap(std::size_t view) {
     return readFloats(maps_[view].depths, GL_DEPTH_COMPONENT, edge, edge, 1);
 }
 
-FilteredTexels Renderer::readFilteredMap() {
-    return mapFilter_.bytes() > 0 ? mapFilter_.read() : FilteredTexels();
+FilteredTexels Renderer::readFilteredMap(std::size_t view) {
+    if (lastTechnique_ == nullptr || lastTechnique_->prefilter == Prefilter::none ||
+        served_.at(view).empty())
+        return {};
+    bindConstants(view);
+    filterMap(*lastTechnique_, view, nullptr);
+    return mapFilter_.read();
 }
 
 FloatImage Renderer::readPositions() {

@@ -44,9 +44,9 @@ void Renderer::setScene(Scene scene) {
     scene_ = std::move(scene);
     reachM_ = kReachOfSoftness * scene_.softnessM;
     windowSteps_.clear();
+    uploadScene();
     fitViews();
     makeVisibilities();
-    uploadScene();
 }
 
 void Renderer::uploadScene() {
@@ -60,6 +60,7 @@ void Renderer::uploadScene() {
     if (all.indices.empty())
         throw std::invalid_argument("scene \"" + scene_.name + "\" has no triangles");
     indexCount_ = all.indices.size();
+    surfaces_ = boundsOf(all);
     vertices_ =
         makeBuffer(all.vertices.data(),
                    static_cast<GLsizeiptr>(all.vertices.size() * sizeof(Vertex)), 0, "vertices");

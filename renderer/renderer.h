@@ -24,6 +24,7 @@
 #include "renderer/map_filter.h"
 #include "renderer/pass_clock.h"
 #include "renderer/scene.h"
+#include "renderer/served_pixels.h"
 #include "renderer/shader_library.h"
 #include "renderer/technique.h"
 
@@ -44,10 +45,13 @@ struct MapSettings {
 struct FrameSettings {
     const Technique* technique = nullptr;            ///< null: the table's first
     std::optional<ParameterValues> parameters = {};  ///< absent: the technique's defaults
-    int resolution = 1024;        ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
-    float radiusUv = 0;           ///< kernel radius as a fraction of the map's extent, 0 .. 1
-    float minRadiusUv = 0;        ///< least radius where a texel is larger than a pixel, 0 .. 1
-    bool lit = true;              ///< false leaves the lit pass out
+    int resolution = 1024;  ///< N, texels along the map's edge, 1 .. GlInfo::maxResolution
+    float radiusUv = 0;     ///< kernel radius as a fraction of the map's extent, 0 .. 1
+    float minRadiusUv = 0;  ///< least radius where a texel is larger than a pixel, 0 .. 1
+    bool lit = true;        ///< false leaves the lit pass out
+    /// Filters the whole map, as it otherwise may not where nothing that is seen looks it up; the
+    /// picture is the same.
+    bool filterUnseen = false;
     int samplesPerPixelEdge = 1;  ///< viewport pixels along a screen pixel's edge, 1 .. 16
     /// While a change of N is faded, the visibility is fadeWeight times this map's and the rest
     /// that of a map with N = fadeFrom, drawn before it. 1: no fade, fadeFrom is not looked at.
@@ -103,6 +107,8 @@ class Renderer {
     /// All maps of a frame, the sun's first. As the last frame had them; their extents are already
     /// those of the next one.
     std::span<const LightView> lightViews() const { return views_; }
+    /// The pixels that each of them can matter to; a frame draws nothing of it for the others.
+    std::span<const PixelRect> servedPixels() const { return served_; }
     /// The sun's, or its first cascade's.
     const ShadowWindow& window() const { return views_.front().window; }
     std::size_t lights() const { return 1 + scene_.lamps.size(); }
@@ -136,9 +142,11 @@ class Renderer {
     ByteImage readLit();                               ///< sRGB codes, 3 channels
     FloatImage readVisibility(std::size_t light = 0);  ///< 1 lit
     FloatImage readShadowMap(std::size_t view = 0);    ///< N x N linear depth
-    /// What the lookup read, of the last of lightViews(); empty after a technique without
-    /// prefilter.
-    FilteredTexels readFilteredMap();
+    /// What the lookup reads of one of lightViews(), filtered once more as a whole; empty after a
+    /// technique without prefilter and for a map that serves no pixel.
+    FilteredTexels readFilteredMap(std::size_t view = 0);
+    /// Share of the tiles that the prefilter of the frame's last map had to do.
+    double readFilteredShare() const { return mapFilter_.readShare(); }
     FloatImage readPositions();  ///< 4 channels: relative to the eye; w 0 is sky
     FloatImage readPlanes();     ///< 4 channels: unit normal of the triangle
     unsigned litFramebuffer() const { return litTarget_.name(); }
@@ -161,6 +169,7 @@ class Renderer {
     };
 
     void fitViews();
+    void useViews(std::vector<LightView> fitted);
     void makeVisibilities();
     void uploadScene();
     /// Throws std::invalid_argument for settings that are out of range or of other maps.
@@ -172,14 +181,13 @@ class Renderer {
     /// Of one view: depth pass, prefilter and lookup, added to the visibility with the weight.
     void drawShadows(const FrameSettings& settings, const Technique& technique, std::size_t view,
                      float weight, PassClock* clock);
+    /// What the technique's prefilter makes of a view's map, or of what of it `seen` looks up.
+    void filterMap(const Technique& technique, std::size_t view, const VisibleSurfaces* seen);
     void drawLookup(const Technique& technique, std::size_t view, float weight);
-    /// The parameters of a layered technique with the layers that the map asks for, entered into
-    /// the shadow block; those of others as they are.
-    ParameterValues withLayers(const Technique& technique, const ParameterValues& asked,
-                               std::size_t view);
+    /// Enters the layers that the map asks for into the shadow block of a layered technique.
+    void enterLayers(const Technique& technique, const ParameterValues& asked, std::size_t view);
     void forgetDepths();
     void drawPrepass();
-    /// Of the lights whose maps serve a part of the pixels each.
     void clearVisibilities();
     void drawLit();
 
@@ -191,6 +199,8 @@ class Renderer {
     std::vector<std::optional<int>> windowSteps_;  // extents of the sun's windows before
     std::vector<LightView> fitted_;                // before they are moved to their texel grids
     std::vector<LightView> views_;
+    std::vector<PixelRect> served_;  // one for each view
+    Bounds surfaces_;                // of all objects
     int widthPx_ = 0;
     int heightPx_ = 0;
 

@@ -36,7 +36,7 @@ struct ShadowWindow {
     glm::vec3 towardsLight{0, 1, 0};  ///< of the sun
     std::optional<glm::dvec3> lampAt = {};  ///< of a lamp; then shadowFromWorld is a projection,
                                             ///< and extentM the map's width 1 m away
-    double nearM = 0;  ///< of a lamp: where depth 0 is, along the map's axis
+    double nearM = 0;                       ///< of a lamp: where depth 0 is, along the map's axis
     ViewPart part = {};
     bool narrowed = false;  ///< to what is seen: the square moves with the camera
 };

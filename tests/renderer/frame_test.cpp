@@ -12,6 +12,7 @@
 
 #include "renderer/cpu_filter.h"
 #include "renderer/renderer.h"
+#include "tests/renderer/cpu_image.h"
 #include "tests/renderer/edge_scene.h"
 #include "tests/renderer/exact_disc.h"
 #include "tests/renderer/image_check.h"
@@ -103,48 +104,11 @@ TEST(DepthPass, MapInACornerOfALargerTextureIsTheSameMap) {
     EXPECT_EQ(frame.readVisibility().values, visibility.values);
 }
 
-/// The map that the GPU's lookup read, for the CPU's.
-renderer::CpuMap<float> mapOf(const FloatImage& depths, renderer::FilteredTexels filtered) {
-    return {.depths = {depths.values.data(), depths.width},
-            .edge = filtered.edge,
-            .layers = 1,
-            .texels = std::move(filtered.texels),
-            .sums = std::move(filtered.sums)};
-}
-
-/// The CPU's lookups of every pixel.
-FloatImage cpuImage(renderer::Renderer& frame, const Technique& technique,
-                    const renderer::CpuMap<float>& map) {
-    const FloatImage positions = frame.readPositions();
-    const FloatImage planes = frame.readPlanes();
-    FloatImage cpu(positions.width, positions.height);
-    for (int y = 0; y < cpu.height; ++y)
-        for (int x = 0; x < cpu.width; ++x) {
-            cpu.at(x, y) = 1;
-            if (positions.at(x, y, 3) == 0) continue;
-            const auto receiver = renderer::f32::shadowReceiver(
-                {positions.at(x, y, 0), positions.at(x, y, 1), positions.at(x, y, 2)},
-                {planes.at(x, y, 0), planes.at(x, y, 1), planes.at(x, y, 2)}, frame.viewConstants(),
-                frame.shadowConstants());
-            cpu.at(x, y) = !receiver.facesLight ? 0
-                                                : renderer::cpuVisibility(technique, map, receiver,
-                                                                          frame.shadowConstants());
-        }
-    return cpu;
-}
-
-// Same map, same constants, same receivers: what differs is the rounding of the lookup alone. A
-// compare that falls the other way moves one texel's weight, at most 1 / (pi (r/a)^2) of a disc, a
-// tap's (1/16 with the fewest taps of a default) or a whole texel for a hard shadow; the
-// reconstructions of filtered maps are steep at depths that are nearly the mean, and steps where
-// the kernel finds one depth. MSM's equations are so badly conditioned that single precision is off
-// by up to .0099 (docs/results/technique-errors.md), here on either side: many pixels of a terrain
-// at grazing light are beyond .001.
 TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
     bool first = true;
     for (const auto& entry : renderer::builtInScenes()) {
         renderer::Renderer frame(gl(), renderer::makeScene(entry.name), 120, 68);
-        frame.setLamps({});  // the sun's map alone: the filtered one that is read is the last
+        frame.setLamps({});  // lamp_frame_test.cpp has theirs
         const double softness = frame.scene().softnessM / frame.window().extentM;
         std::vector<std::pair<int, double>> maps = {{64, softness}};
         if (first) maps.insert(maps.end(), {{1, 0.3}, {40, 0.0}, {24, 1.0}});
@@ -162,24 +126,10 @@ TEST(Lookup, GpuAgreesWithCpuOnTheSameMap) {
                               .resolution = n,
                               .radiusUv = static_cast<float>(radius)});
                 const FloatImage gpu = frame.readVisibility();
-                const FloatImage depths = frame.readShadowMap();
-                const FloatImage cpu =
-                    cpuImage(frame, technique, mapOf(depths, frame.readFilteredMap()));
-                const double texels = radius * n;
-                const double kernelTexel = 1.0 / (kPi * texels * texels + 1e-9);
-                const double oneTexel = !technique.soft || filtered ? 1.0
-                                        : technique.name == "pcf_disc"
-                                            ? std::min(1.0, kernelTexel)
-                                            : std::clamp(kernelTexel, 1.0 / 16, 1.0);
-                const bool moments = technique.name.starts_with("msm");
                 tests::expectImagesAgree(std::string(entry.name) + "_" +
                                              std::string(technique.name) + "_" + std::to_string(n),
-                                         gpu, cpu,
-                                         {.most = 2 * oneTexel + 1e-4,
-                                          .often = moments    ? 2 * .0099
-                                                   : filtered ? 1e-3
-                                                              : 1e-4,
-                                          .shareBeyondOften = 0.002});
+                                         gpu, tests::cpuImage(frame, technique),
+                                         tests::limitsAgainstCpu(technique, radius * n));
             }
     }
 }
@@ -201,9 +151,7 @@ TEST(Lookup, GpuAgreesWithCpuInEveryWayToReadTheMap) {
                               .resolution = kN,
                               .radiusUv = radius});
                 const FloatImage gpu = frame.readVisibility();
-                const FloatImage depths = frame.readShadowMap();
-                const FloatImage cpu =
-                    cpuImage(frame, technique, mapOf(depths, frame.readFilteredMap()));
+                const FloatImage cpu = tests::cpuImage(frame, technique);
                 // One tap of 16, or one texel of a filtered map's step, may fall the other way.
                 tests::expectImagesAgree(
                     std::string(technique.name) + "_" + std::string(parameter.name) + "_" +
@@ -274,7 +222,7 @@ TEST(MapFilter, GpuAgreesWithCpuTexelForTexel) {
                               .resolution = n,
                               .radiusUv = radius});
                 const FloatImage depths = frame.readShadowMap();
-                const renderer::CpuMap<float> gpu = mapOf(depths, frame.readFilteredMap());
+                const renderer::CpuMap<float> gpu = tests::mapOf(depths, frame.readFilteredMap());
                 const renderer::f32::ShadowConstants& shadow = frame.shadowConstants();
                 const auto cpu = renderer::cpuMap<float>(technique, gpu.depths, shadow);
                 ASSERT_EQ(gpu.texels.size(), cpu.texels.size()) << technique.name;
@@ -310,6 +258,38 @@ TEST(MapFilter, GpuAgreesWithCpuTexelForTexel) {
             }
         }
     }
+}
+
+// Bit for bit, though the texture holds another sun's map wherever nothing was filtered.
+TEST(MapFilter, LeavingOutWhatIsNotSeenChangesNoPixel) {
+    bool left = false;
+    for (const char* scene : {"yard", "terrain"}) {
+        renderer::Renderer frame(gl(), renderer::makeScene(scene), 120, 68);
+        const renderer::Sun sun = frame.scene().sun;
+        renderer::Sun other = sun;
+        other.azimuthDeg += 70;
+        for (const Technique& technique : renderer::techniques()) {
+            if (technique.prefilter == renderer::Prefilter::none) continue;
+            for (const float radius : {0.0F, 0.01F, 0.05F}) {
+                const auto drawn = [&](const renderer::Sun& light, bool filterUnseen) {
+                    frame.setSun(light);
+                    frame.render({.technique = &technique,
+                                  .resolution = 200,
+                                  .radiusUv = radius,
+                                  .lit = false,
+                                  .filterUnseen = filterUnseen});
+                    return frame.readVisibility().values;
+                };
+                const auto whole = drawn(sun, true);
+                EXPECT_EQ(frame.readFilteredShare(), 1);
+                drawn(other, true);
+                EXPECT_EQ(drawn(sun, false), whole)
+                    << scene << ' ' << technique.name << ' ' << radius;
+                left = left || frame.readFilteredShare() < 0.5;
+            }
+        }
+    }
+    EXPECT_TRUE(left) << "nothing was left out";
 }
 
 // Whole numbers: exact at every size, however often they went round.

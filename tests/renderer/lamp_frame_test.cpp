@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/cpu_filter.h"
 #include "renderer/renderer.h"
+#include "tests/renderer/cpu_image.h"
 #include "tests/renderer/image_check.h"
 
 namespace {
@@ -165,40 +165,49 @@ TEST(LampFrame, EveryTechniqueShadowsWithBothKindsOfLamps) {
     }
 }
 
-// The tolerances are those of the sun's map (frame_test.cpp).
-TEST(LampFrame, GpuAgreesWithCpuOnALampsMap) {
-    renderer::Renderer frame(gl(), ballScene({kSpot}), 96, 64);
-    for (const char* name : {"hard", "pcf_disc", "pcf_grid"}) {
+// Filtered maps among them: each of a cube's faces is held against the pixels that it serves.
+TEST(LampFrame, GpuAgreesWithCpuOnLampsMaps) {
+    renderer::Renderer frame(gl(), ballScene({kPoint, kSpot}), 96, 64);
+#ifdef __SANITIZE_ADDRESS__
+    constexpr std::size_t kStep = 5;  // all of them take minutes there
+#else
+    constexpr std::size_t kStep = 1;
+#endif
+    constexpr int kN = 128;
+    for (std::size_t row = 0; row < renderer::techniques().size(); row += kStep) {
+        const Technique& technique = renderer::techniques()[row];
+        frame.render({.technique = &technique, .resolution = kN, .radiusUv = 0.01F});
+        for (const std::size_t light : {1U, 2U}) {
+            const FloatImage gpu = frame.readVisibility(light);
+            double texels = kN;  // of the narrowest of the light's kernels
+            for (std::size_t view = 0; view < frame.lightViews().size(); ++view)
+                if (frame.lightViews()[view].light == light)
+                    texels = std::min(
+                        texels, kN * static_cast<double>(frame.shadowConstants(view).kernel.x));
+            tests::expectImagesAgree(
+                "lamp_" + std::to_string(light) + "_" + std::string(technique.name), gpu,
+                tests::cpuImage(frame, technique, light),
+                tests::limitsAgainstCpu(technique, texels));
+        }
+    }
+}
+
+// A sun's cascades too: their kernels differ in uv.
+TEST(CascadeFrame, GpuAgreesWithCpuOnCascades) {
+    renderer::Renderer frame(gl(), renderer::makeScene("city:cascades=3"), 96, 54);
+    for (const char* name : {"pcf_disc", "vsm", "esm", "power_cdf"}) {
         const Technique& technique = renderer::findTechnique(name);
-        frame.render({.technique = &technique, .resolution = 200, .radiusUv = 0.01F});
-        const FloatImage depths = frame.readShadowMap(1);
-        const FloatImage positions = frame.readPositions();
-        const FloatImage planes = frame.readPlanes();
-        const renderer::f32::ShadowConstants& shadow = frame.shadowConstants(1);
-        FloatImage cpu(positions.width, positions.height);
-        for (int y = 0; y < cpu.height; ++y)
-            for (int x = 0; x < cpu.width; ++x) {
-                cpu.at(x, y) = 1;
-                if (positions.at(x, y, 3) == 0) continue;
-                const glm::vec3 eyeRelative(positions.at(x, y, 0), positions.at(x, y, 1),
-                                            positions.at(x, y, 2));
-                const auto receiver = renderer::f32::shadowReceiver(
-                    eyeRelative, {planes.at(x, y, 0), planes.at(x, y, 1), planes.at(x, y, 2)},
-                    frame.viewConstants(), shadow);
-                if (!serves(receiver,
-                            glm::dot(eyeRelative, glm::vec3(frame.viewConstants().forward)),
-                            shadow))
-                    continue;
-                const renderer::CpuMap<float> map{.depths = {depths.values.data(), depths.width},
-                                                  .edge = 0,
-                                                  .texels = {},
-                                                  .sums = {}};
-                cpu.at(x, y) = !receiver.facesLight
-                                   ? 0
-                                   : renderer::cpuVisibility(technique, map, receiver, shadow);
-            }
-        tests::expectImagesAgree(std::string("lamp_") + name, frame.readVisibility(1), cpu,
-                                 {.most = 1.0001, .often = 1e-4, .shareBeyondOften = 0.002});
+        constexpr int kN = 160;
+        const float radius = 0.01F;
+        frame.render({.technique = &technique, .resolution = kN, .radiusUv = radius});
+        const FloatImage gpu = frame.readVisibility();
+        double texels = kN;
+        for (std::size_t view = 0; view < 3; ++view)
+            texels =
+                std::min(texels, kN * static_cast<double>(frame.shadowConstants(view).kernel.x));
+        tests::expectImagesAgree(std::string("cascaded_") + name, gpu,
+                                 tests::cpuImage(frame, technique),
+                                 tests::limitsAgainstCpu(technique, texels));
     }
 }
 

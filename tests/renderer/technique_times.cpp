@@ -39,6 +39,8 @@ struct Row {
     const renderer::Technique* technique;
     std::array<std::vector<double>, renderer::kPasses> passesMs;
     std::vector<double> sumsMs;
+    std::vector<double> wholeMs;  // prefilter of everything, seen or not
+    double share = 1;             // of the last map's tiles that are seen
 
     double median(renderer::Pass pass) const {
         return quartilesOf(passesMs[static_cast<std::size_t>(pass)]).median;
@@ -75,7 +77,13 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
             frame.render(settings);  // allocates: one renderer goes from technique to technique
             frame.render(settings, &clock);
             const renderer::PassTimesMs times = clock.collectMs();
+            row.share = frame.readFilteredShare();
+            renderer::FrameSettings whole = settings;
+            whole.filterUnseen = true;
+            frame.render(whole, &clock);
+            const double wholeMs = clock.collectMs()[static_cast<std::size_t>(Pass::prefilter)];
             if (round < 0) continue;
+            row.wholeMs.push_back(wholeMs);
             double sum = 0;
             for (const Pass pass : {Pass::depth, Pass::prefilter, Pass::lookup}) {
                 const auto i = static_cast<std::size_t>(pass);
@@ -88,20 +96,23 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
         return *std::find_if(rows.begin(), rows.end(),
                              [&](const Row& row) { return row.technique->name == name; });
     };
+    double screens = 0;
+    for (const renderer::PixelRect& pixels : frame.servedPixels())
+        screens += static_cast<double>(pixels.width) * pixels.height / (kWidthPx * kHeightPx);
     std::printf(
         "\n**%s**, %d x %d px, N = %d, radius %.5f of the map = %.1f "
-        "texels, %d rounds\n\n"
-        "| technique | depth ms | prefilter ms | lookup ms | sum ms | of "
-        "pcf_disc | of vsm |\n"
-        "|---|---|---|---|---|---|---|\n",
+        "texels, %d rounds; %zu maps, looked up over %.2f screens\n\n"
+        "| technique | depth ms | prefilter ms | of it all ms | tiles seen | lookup ms | sum ms | "
+        "of pcf_disc | of vsm |\n"
+        "|---|---|---|---|---|---|---|---|---|\n",
         scene, kWidthPx, kHeightPx, kResolution, static_cast<double>(radius),
-        static_cast<double>(radius) * kResolution, kRounds);
+        static_cast<double>(radius) * kResolution, kRounds, frame.lightViews().size(), screens);
     for (const Row& row : rows)
-        std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %s | %s |\n",
+        std::printf("| %s | %.1f | %.1f | %.1f | %.0f %% | %.1f | %.1f | %s | %s |\n",
                     std::string(row.technique->name).c_str(), row.median(Pass::depth),
-                    row.median(Pass::prefilter), row.median(Pass::lookup),
-                    quartilesOf(row.sumsMs).median, ratio(row, find("pcf_disc")).c_str(),
-                    ratio(row, find("vsm")).c_str());
+                    row.median(Pass::prefilter), quartilesOf(row.wholeMs).median, 100 * row.share,
+                    row.median(Pass::lookup), quartilesOf(row.sumsMs).median,
+                    ratio(row, find("pcf_disc")).c_str(), ratio(row, find("vsm")).c_str());
 }
 
 }  // namespace

@@ -18,7 +18,10 @@ void main() {
     if (position.w == 0.0) return;
     ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
 #ifdef PART
-    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) discard;
+    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) {
+        discard;
+        return;  // some drivers let what is discarded go through the loops of the lookup
+    }
 #endif
     outVisibility = receiver.facesLight ? filterVisibility(shadowMap, receiver, shadow) : 0.0;
 }

@@ -6,8 +6,9 @@
 // rounding behind, and a least or a greatest cannot be taken out. (M. van Herk, "A fast algorithm for local minimum and
 // maximum filters", 1992.)
 #include "shared/filters.glsl"
+#include "passes/tiles.glsl"
 
-layout(local_size_x = GROUP) in;
+layout(local_size_x = TILE, local_size_y = TILE / STRIP) in;
 
 layout(binding = 0) uniform sampler2DArray map;
 layout(binding = 0) writeonly uniform image2DArray filtered;
@@ -37,10 +38,8 @@ void write(ivec2 texel, vec4 value) {
 #endif
 
 void main() {
-    ivec2 id = ivec2(gl_GlobalInvocationID.xy);
-    // Neighbouring invocations do neighbouring memory.
-    ivec2 first = axis.x == 1 ? ivec2(id.x * STRIP, id.y) : ivec2(id.x, id.y * STRIP);
-    if (max(first.x, first.y) >= filteredEdge(shadow)) return;
+    ivec2 id = ivec2(gl_LocalInvocationID.xy);
+    ivec2 first = tileCorner() + (axis.x == 1 ? ivec2(id.y * STRIP, id.x) : ivec2(id.x, id.y * STRIP));
     int taps = kernelTaps(shadow);
     bool gaussian = shadow.prefilter.y != 0.0;
     if (gaussian || 2 * taps < STRIP) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// A frame's visibility as the CPU evaluates it: the same map, constants and receivers, so that what
+// differs from the GPU's is the rounding of the lookup alone.
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "renderer/cpu_filter.h"
+#include "renderer/renderer.h"
+#include "tests/renderer/image_check.h"
+
+namespace tests {
+
+/// What the GPU's lookup reads of a view's map. Does not own the depths.
+inline renderer::CpuMap<float> mapOf(const renderer::FloatImage& depths,
+                                     renderer::FilteredTexels filtered) {
+    return {.depths = {depths.values.data(), depths.width},
+            .edge = filtered.edge,
+            .layers = 1,
+            .texels = std::move(filtered.texels),
+            .sums = std::move(filtered.sums)};
+}
+
+/// Of one of the lights: each pixel from the map that serves it.
+inline renderer::FloatImage cpuImage(renderer::Renderer& frame,
+                                     const renderer::Technique& technique, std::size_t light = 0) {
+    const renderer::FloatImage positions = frame.readPositions();
+    const renderer::FloatImage planes = frame.readPlanes();
+    renderer::FloatImage cpu(positions.width, positions.height);
+    for (float& visibility : cpu.values) visibility = 1;
+    for (std::size_t view = 0; view < frame.lightViews().size(); ++view) {
+        if (frame.lightViews()[view].light != light) continue;
+        const renderer::FloatImage depths = frame.readShadowMap(view);
+        const renderer::CpuMap<float> map = mapOf(depths, frame.readFilteredMap(view));
+        if (technique.prefilter != renderer::Prefilter::none && map.edge == 0)
+            continue;  // no pixel is for it
+        const renderer::f32::ShadowConstants& shadow = frame.shadowConstants(view);
+        for (int y = 0; y < cpu.height; ++y)
+            for (int x = 0; x < cpu.width; ++x) {
+                if (positions.at(x, y, 3) == 0) continue;
+                const glm::vec3 eyeRelative(positions.at(x, y, 0), positions.at(x, y, 1),
+                                            positions.at(x, y, 2));
+                const auto receiver = renderer::f32::shadowReceiver(
+                    eyeRelative, {planes.at(x, y, 0), planes.at(x, y, 1), planes.at(x, y, 2)},
+                    frame.viewConstants(), shadow);
+                if (!serves(receiver,
+                            glm::dot(eyeRelative, glm::vec3(frame.viewConstants().forward)),
+                            shadow))
+                    continue;
+                cpu.at(x, y) = !receiver.facesLight
+                                   ? 0
+                                   : renderer::cpuVisibility(technique, map, receiver, shadow);
+            }
+    }
+    return cpu;
+}
+
+/// How far the GPU may be from it on a map of n texels under a kernel of `texels` radius. A compare
+/// that falls the other way moves one texel's weight, at most 1 / (pi (r/a)^2) of a disc, a tap's
+/// (1/16 with the fewest taps of a default) or a whole texel for a hard shadow; the reconstructions
+/// of filtered maps are steep at depths that are nearly the mean, and steps where the kernel finds
+/// one depth. MSM's equations are so badly conditioned that single precision is off by up to .0099
+/// (docs/results/technique-errors.md), here on either side: many pixels of a terrain at grazing
+/// light are beyond .001.
+inline ImageLimits limitsAgainstCpu(const renderer::Technique& technique, double texels) {
+    const bool filtered = technique.prefilter != renderer::Prefilter::none;
+    const double kernelTexel = 1.0 / (std::numbers::pi * texels * texels + 1e-9);
+    const double oneTexel = !technique.soft || filtered    ? 1.0
+                            : technique.name == "pcf_disc" ? std::min(1.0, kernelTexel)
+                                                           : std::clamp(kernelTexel, 1.0 / 16, 1.0);
+    const bool moments = technique.name.starts_with("msm");
+    return {.most = 2 * oneTexel + 1e-4,
+            .often = moments    ? 2 * .0099
+                     : filtered ? 1e-3
+                                : 1e-4,
+            .shareBeyondOften = 0.002};
+}
+
+}  // namespace tests
