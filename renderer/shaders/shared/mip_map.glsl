@@ -13,6 +13,16 @@ SHARED_FUNCTION real4 mipTexel(sampler2DArray map, int2 texel, int below) {
            real(0.25);
 }
 
+// Of a level that ends at `last`; beyond it there is nothing in the way, as in the guard band, which the first texel of
+// the first level lies in.
+SHARED_FUNCTION real4 levelTexel(sampler2DArray map, int column, int row, int last, int level) {
+    int2 texel = int2(column, row);
+    int2 at = clamp(texel, int2(0, 0), int2(last, last));
+    return at == texel ? texelFetch(map, int3(at.x, at.y, 0), level) : texelFetch(map, int3(0, 0, 0), 0);
+}
+
+// A level's texels are as large as the kernel or as a pixel, and a pixel may be larger than the guard band is wide: its
+// lookups go on beyond the level's edge, or they would find the shadows on the map's edge there.
 SHARED_FUNCTION real4 bilinearLevel(sampler2DArray map, real2 uv, int level, ShadowConstants shadow) {
     int edge = filteredEdge(shadow);
     real size = real(1.0);
@@ -20,15 +30,15 @@ SHARED_FUNCTION real4 bilinearLevel(sampler2DArray map, real2 uv, int level, Sha
         edge /= 2;
         size *= real(2.0);
     }
-    real last = real(edge - 1);
+    int last = edge - 1;
     real2 place = (uv * shadow.map.x + real2(shadow.prefilter.z)) / size - real2(0.5);
-    place = clamp(place, real2(0.0), real2(last));
-    int2 low = int2(int(place.x), int(place.y));
-    int2 high = int2(min(low.x + 1, int(last)), min(low.y + 1, int(last)));
-    real2 part = place - real2(real(low.x), real(low.y));
-    return mix(mix(texelFetch(map, int3(low.x, low.y, 0), level), texelFetch(map, int3(high.x, low.y, 0), level), part.x),
-               mix(texelFetch(map, int3(low.x, high.y, 0), level), texelFetch(map, int3(high.x, high.y, 0), level), part.x),
-               part.y);
+    place = clamp(place, real2(-1.0), real2(real(edge)));
+    real2 low = floor(place);
+    real2 part = place - low;
+    int x = int(low.x);
+    int y = int(low.y);
+    return mix(mix(levelTexel(map, x, y, last, level), levelTexel(map, x + 1, y, last, level), part.x),
+               mix(levelTexel(map, x, y + 1, last, level), levelTexel(map, x + 1, y + 1, last, level), part.x), part.y);
 }
 
 // Trilinear: a level's texel with its bilinear tent has half the texel's edge as standard deviation, as a disc has half
