@@ -78,6 +78,7 @@ int valuesPerTexel(MapFormat format) {
     switch (format) {
         case MapFormat::depth32f:
         case MapFormat::r32f:
+        case MapFormat::r16f:
             return 1;
         case MapFormat::rg32f:
         case MapFormat::rg16f:
@@ -98,6 +99,7 @@ Real stored(Real value, MapFormat format, Storage storage) {
     const auto narrow = static_cast<float>(value);
     if (storage == Storage::half) return static_cast<Real>(roundedToHalf(narrow));
     switch (format) {
+        case MapFormat::r16f:
         case MapFormat::rg16f:
         case MapFormat::rgba16f:
         case MapFormat::rg16fSplit:

@@ -18,6 +18,8 @@ GLenum glFormat(MapFormat format) {
             return GL_RG32F;
         case MapFormat::rgba32f:
             return GL_RGBA32F;
+        case MapFormat::r16f:
+            return GL_R16F;
         case MapFormat::rg16f:
             return GL_RG16F;
         case MapFormat::rgba16f:

@@ -213,14 +213,21 @@ constexpr TechniqueParameter kVariancePenumbraParameters[] = {
     kBoxBiasTexels, kLeastVariance, kBleeding, kDerivative, kPenumbraDistance};
 constexpr Property kMipPenumbraDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
 
-constexpr TechniqueParameter kExponentialParameters[] = {
-    kBiasTexels,
-    kGaussian,
-    {.name = "exponent",
-     .meaning = "c of exp(c (z - d)), per depth range: light leaks within about 1/c",
-     .low = 1,
-     .high = 1000,
-     .standard = 80}};
+/// esm.glsl.
+struct ExponentialParameters {
+    TechniqueParameter all[4];
+};
+constexpr ExponentialParameters exponentialParameters(float depthBias) {
+    return {{kBiasTexels,
+             biasDepth(depthBias),
+             kGaussian,
+             {.name = "exponent",
+              .meaning = "c of exp(c (z - d)), per depth range: light leaks within about 1/c",
+              .low = 1,
+              .high = 1000,
+              .standard = 80}}};
+}
+constexpr ExponentialParameters kExponential32 = exponentialParameters(0);
 
 constexpr TechniqueParameter kPositiveExponent{
     .name = "positive_exponent",
@@ -487,7 +494,7 @@ constexpr Technique kTechniques[] = {
      .paper = "Annen, Mertens, Seidel, Flerackers, Kautz 2008, Exponential shadow maps",
      .format = MapFormat::r32f,
      .prefilter = Prefilter::logMean,
-     .parameters = kExponentialParameters,
+     .parameters = kExponential32.all,
      .cost = kSeparableCost},
     {.name = "evsm2",
      .title = "Exponential variance, 2 moments",
@@ -575,6 +582,8 @@ std::string_view toText(MapFormat format) {
             return "2 x 32-bit float";
         case MapFormat::rgba32f:
             return "4 x 32-bit float";
+        case MapFormat::r16f:
+            return "1 x 16-bit float";
         case MapFormat::rg16f:
             return "2 x 16-bit float";
         case MapFormat::rgba16f:
@@ -591,6 +600,8 @@ std::string_view toText(MapFormat format) {
 
 int bytesPerTexel(MapFormat format) {
     switch (format) {
+        case MapFormat::r16f:
+            return 2;
         case MapFormat::depth32f:
         case MapFormat::r32f:
         case MapFormat::rg16f:

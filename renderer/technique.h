@@ -24,7 +24,18 @@ namespace renderer {
 
 /// What a texel of the map holds that the lookup reads. The split stores two values in four halves
 /// (shared/filtered_map.glsl).
-enum class MapFormat { depth32f, r32f, rg32f, rgba32f, rg16f, rgba16f, rg16fSplit, rgba16, rg32ui };
+enum class MapFormat {
+    depth32f,
+    r32f,
+    rg32f,
+    rgba32f,
+    r16f,
+    rg16f,
+    rgba16f,
+    rg16fSplit,
+    rgba16,
+    rg32ui
+};
 std::string_view toText(MapFormat format);
 int bytesPerTexel(MapFormat format);
 

@@ -27,6 +27,7 @@ using tests::Precision;
 /// the cases.
 double mostAsStored(const Technique& technique) {
     switch (technique.format) {
+        case MapFormat::r16f:
         case MapFormat::rg16f:
         case MapFormat::rgba16f:
         case MapFormat::rgba16:

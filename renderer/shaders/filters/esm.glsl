@@ -6,7 +6,7 @@
 // "Rendering filtered shadows with exponential shadow maps", ShaderX6, 2008 (filtering the logarithm).
 // Map: x the logarithm of the mean of exp(c z) under the kernel, z linear light depth, 0 near. The exponentials
 // themselves overflow at c z > 88.7 in 32 bits and 11.1 in 16; their logarithm is a depth in units of 1/c.
-// Parameters: bias_texels (shared/filtered_map.glsl), gaussian (prefilter.h), exponent c.
+// Parameters: bias_texels, bias_depth (shared/filtered_map.glsl), gaussian (prefilter.h), exponent c.
 
 SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstants shadow) {
     return real4(PARAMETER_exponent * depth, 0.0, 0.0, 0.0);
@@ -15,6 +15,6 @@ SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstan
 SHARED_FUNCTION real filterVisibility(sampler2DArray map, ShadowReceiver receiver, ShadowConstants shadow) {
     if (!reachesFilteredMap(receiver.uv, shadow)) return real(1.0);
     real logMean = filteredTexel(map, receiver.uv, 0, shadow).x;
-    real depth = biasedDepth(receiver, shadow, PARAMETER_bias_texels, real(0.0), real(0.0));
+    real depth = biasedDepth(receiver, shadow, PARAMETER_bias_texels, real(0.0), PARAMETER_bias_depth);
     return unitRange(exp(min(logMean - PARAMETER_exponent * depth, real(0.0))));
 }
