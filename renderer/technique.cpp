@@ -228,6 +228,7 @@ constexpr ExponentialParameters exponentialParameters(float depthBias) {
               .standard = 80}}};
 }
 constexpr ExponentialParameters kExponential32 = exponentialParameters(0);
+constexpr ExponentialParameters kExponential16 = exponentialParameters(kHalfRounding);
 
 constexpr TechniqueParameter kPositiveExponent{
     .name = "positive_exponent",
@@ -495,6 +496,14 @@ constexpr Technique kTechniques[] = {
      .format = MapFormat::r32f,
      .prefilter = Prefilter::logMean,
      .parameters = kExponential32.all,
+     .cost = kSeparableCost},
+    {.name = "esm16",
+     .title = "Exponential, 16 bits",
+     .paper = "Annen, Mertens, Seidel, Flerackers, Kautz 2008, Exponential shadow maps",
+     .file = "esm",
+     .format = MapFormat::r16f,
+     .prefilter = Prefilter::logMean,
+     .parameters = kExponential16.all,
      .cost = kSeparableCost},
     {.name = "evsm2",
      .title = "Exponential variance, 2 moments",
