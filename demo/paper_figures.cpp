@@ -101,12 +101,11 @@ std::vector<PaperFigure> variance() {
          .widthPx = 480,
          .heightPx = 270,
          .show = PaperShow::raisedContrast,
-         .truth = PaperPanel{"", "pcf_disc", {}, 1024, 0, 0.06},
+         .truth = PaperPanel{"", "pcf_disc", {}, kTruthResolution, 0, 0.06},
          .numbers = {umbraLight},
          .panels = {{"VSM", "vsm", {}, 1024, 0, 0.06}, {"PCF", "pcf_disc", {}, 1024, 0, 0.06}},
          .setting = "Spheres whose shadows overlap, visibility times 4: white is a quarter of the "
-                    "light or more. Umbra: where PCF of the full disc is dark all around, so that "
-                    "its own is 0 by definition.",
+                    "light or more. Umbra: where PCF on a map of 4096 x 4096 is dark all around.",
          .finding = "As in the paper: where a shadow's edge lies inside another shadow, variance "
                     "maps let light through; PCF leaves none. The paper shows a car, ours has "
                     "spheres as in Fig. 3 of Gumbau et al."},
@@ -165,18 +164,20 @@ std::vector<PaperFigure> powerCdf() {
          .heightPx = 270,
          .part = Part{120, 60, 240, 135},
          .scale = 2,
-         .heldAgainst = {0, 0, 2, 2},
+         .heldAgainst = {0, 0, 2, 2, 4, 4},
          .numbers = {rmse},
          .panels =
              {{"VSM, 32 bits", "vsm", kPlain, 1024, 0, kCityRadiusM},
               {"VSM, 16 bits", "vsm16", kPlain16, 1024, 0, kCityRadiusM},
+              {"ESM, 32 bits", "esm", {}, 1024, 0, kCityRadiusM},
+              {"ESM, 16 bits", "esm16", {{"bias_depth", 0}}, 1024, 0, kCityRadiusM},
               {"Power CDF, 32 bits", "power_cdf", {}, 1024, 0, kCityRadiusM},
               {"Power CDF, 16 bits", "power_cdf16", {{"bias_depth", 0}}, 1024, 0, kCityRadiusM}},
          .setting = "The city; in 16 bits with the constants of 32 bits. RMSE of each technique "
                     "against itself in 32 bits.",
          .finding = "As in the paper, 16 bits harm variance maps much and the power CDF little. "
-                    "The paper's exponential map in 16 bits is not drawn: ours keeps depths, not "
-                    "their exponentials, and has no row in 16 bits."},
+                    "Our exponential map keeps logarithms: what 16 bits take of it is the same "
+                    "share of a depth that they take of the power CDF, times the exponent."},
         {.paper = "power-cdf",
          .name = "power-cdf-4",
          .title = "Fig. 4: sharpness",

@@ -508,9 +508,10 @@ Wide gradientShadow(const Situation& s) {
                                       : poisson(i));
     }
     Place g{s.receiver.depthGradient.x, s.receiver.depthGradient.y};
+    const auto within = [&](Wide x) { return x > radius + texel && x < 1 - radius - texel; };
     if (s.technique.fileName() == "gsm_stored")
         g = storedSlope(s);
-    else if (s.parameter("gradient") != 2)
+    else if (s.parameter("gradient") != 2 && within(s.receiver.uv.x) && within(s.receiver.uv.y))
         g = slopeOfTheMap(s, taps, radius);
     const Wide size = std::hypot(g.x, g.y);
     const Wide cut = size > 0 ? std::min(size, s.parameter("most_slope")) / size : 0;

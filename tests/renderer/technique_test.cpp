@@ -168,6 +168,27 @@ TEST(GradientShadowMap, SlopesAreLitByEveryGradientAndHalfDarkWithoutOffsets) {
         }
 }
 
+// Depth 1 beyond the map is no slope: taken for one, it drew a dark line along the map's edge.
+TEST(GradientShadowMap, SlopesAreLitUpToTheMapsEdge) {
+    const Technique& gsm = renderer::findTechnique("gsm");
+    const glm::dvec2 gradient(0.3, -0.2);
+    const auto depthAt = [&](double u, double v) {
+        return 0.4 + gradient.x * (u - 0.5) + gradient.y * (v - 0.5);
+    };
+    const Map map(64, depthAt);
+    for (const float source : {0.0F, 1.0F, 2.0F}) {
+        renderer::ParameterValues parameters = gsm.standardParameters();
+        setParameter(gsm, parameters, "gradient", source);
+        const CpuTechnique<float> filter(gsm, map, constantsFor(gsm, 64, 0.05, parameters));
+        double least = 1;
+        for (double along = -0.08; along < 1.08; along += 0.01)
+            for (double across : {-0.07, -0.03, 0.0, 0.01, 0.03, 0.07, 0.93, 0.97, 1.0, 1.03})
+                for (const auto& [u, v] : {std::pair{along, across}, {across, along}})
+                    least = std::min(least, filter(receiverAt(u, v, depthAt(u, v), gradient)));
+        EXPECT_GT(least, 0.99) << "gradient " << source;
+    }
+}
+
 /// Mean darkness of a floor along the foot of a wall, five texels to either side.
 double darknessOfTheCorner(float source, float pattern, double radiusTexels) {
     const Technique& gsm = renderer::findTechnique("gsm");

@@ -18,8 +18,10 @@ SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, Sh
     int pattern = int(PARAMETER_pattern);
     int n = gradientTaps(pattern, int(PARAMETER_taps));
     real2 gradient = receiver.depthGradient;
-    if (PARAMETER_gradient == real(0.0)) gradient = neighbourGradient(map, receiver.uv, shadow);
-    if (PARAMETER_gradient == real(1.0))
+    // Over the map's edge there is no surface that has a slope, only depth 1: the receiver's own gradient there.
+    bool slopesAround = liesInMap(receiver.uv, radius + shadow.map.y);
+    if (slopesAround && PARAMETER_gradient == real(0.0)) gradient = neighbourGradient(map, receiver.uv, shadow);
+    if (slopesAround && PARAMETER_gradient == real(1.0))
         gradient = regressedGradient(map, receiver.uv, radius, pattern, n, shadow);
     gradient = limitedGradient(gradient, PARAMETER_most_slope);
     real slope = length(gradient) * shadow.map.y;

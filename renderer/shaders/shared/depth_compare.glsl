@@ -54,6 +54,9 @@ SHARED_FUNCTION bool reachesMap(real2 uv, real radiusUv) {
     return uv.x > -radiusUv && uv.x < real(1.0) + radiusUv && uv.y > -radiusUv && uv.y < real(1.0) + radiusUv;
 }
 
+// Whether everything within a radius of a point is on the map; false for uv that is no number.
+SHARED_FUNCTION bool liesInMap(real2 uv, real radiusUv) { return reachesMap(uv, -radiusUv); }
+
 // Lit or not in the one texel that holds a place. Outside the map is lit.
 SHARED_FUNCTION real texelVisibility(sampler2D map, real2 uv, ShadowConstants shadow, PlaneCompare plane) {
     real2 texel = floor(uv * shadow.map.x);
