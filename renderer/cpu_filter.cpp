@@ -74,25 +74,6 @@ const CompiledFilter<Real>& compiled(const Technique& technique) {
         return find(f64::kGeneratedRows);
 }
 
-int valuesPerTexel(MapFormat format) {
-    switch (format) {
-        case MapFormat::depth32f:
-        case MapFormat::r32f:
-        case MapFormat::r16f:
-            return 1;
-        case MapFormat::rg32f:
-        case MapFormat::rg16f:
-        case MapFormat::rg32ui:
-            return 2;
-        case MapFormat::rgba32f:
-        case MapFormat::rgba16f:
-        case MapFormat::rg16fSplit:
-        case MapFormat::rgba16:
-            return 4;
-    }
-    return 4;
-}
-
 template <class Real>
 Real stored(Real value, MapFormat format, Storage storage) {
     if (storage == Storage::exact) return value;
@@ -116,7 +97,7 @@ Real stored(Real value, MapFormat format, Storage storage) {
 template <class Real>
 glm::vec<4, Real> stored(const glm::vec<4, Real>& texel, MapFormat format, Storage storage) {
     glm::vec<4, Real> kept(0);
-    for (int i = 0; i < valuesPerTexel(format); ++i) kept[i] = stored(texel[i], format, storage);
+    for (int i = 0; i < channelsOf(format); ++i) kept[i] = stored(texel[i], format, storage);
     return kept;
 }
 

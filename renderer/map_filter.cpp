@@ -91,10 +91,10 @@ void MapFilter::prepare(const Technique& technique) {
 }
 
 const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip) {
-    Program& line =
-        linePrograms_[{technique.prefilter, technique.format == MapFormat::rg16fSplit, strip}];
+    Program& line = linePrograms_[{technique.prefilter, technique.format == MapFormat::rg16fSplit,
+                                   channelsOf(technique.format), strip}];
     if (line.name() == 0) {
-        ShaderOptions options = inTiles({.defines = {splitDefine(technique)}, .substitutions = {}});
+        ShaderOptions options = inTiles({.defines = formatDefines(technique), .substitutions = {}});
         options.defines.push_back({"STRIP", std::to_string(strip)});
         options.defines.push_back(
             {"PREFILTER", std::to_string(static_cast<int>(technique.prefilter))});

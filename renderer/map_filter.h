@@ -64,8 +64,8 @@ class MapFilter {
 
     ShaderLibrary shaders_;
     std::vector<Program> convertPrograms_;  // one per row of the technique table, made when used
-    /// By prefilter, whether texels are split, and strip; made when used.
-    std::map<std::tuple<Prefilter, bool, GLuint>, Program> linePrograms_;
+    /// By prefilter, whether texels are split, channels, and strip; made when used.
+    std::map<std::tuple<Prefilter, bool, int, GLuint>, Program> linePrograms_;
     Program mipProgram_, sumsProgram_;
     FilterTiles tiles_;
     Prefilter prefilter_ = Prefilter::none;

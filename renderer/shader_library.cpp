@@ -220,8 +220,9 @@ const std::string& ShaderLibrary::text(std::string_view path,
     return found->second;
 }
 
-ShaderDefine splitDefine(const Technique& technique) {
-    return {"MAP_IS_SPLIT", technique.format == MapFormat::rg16fSplit ? "true" : "false"};
+std::vector<ShaderDefine> formatDefines(const Technique& technique) {
+    return {{"MAP_IS_SPLIT", technique.format == MapFormat::rg16fSplit ? "true" : "false"},
+            {"MAP_CHANNELS", std::to_string(channelsOf(technique.format))}};
 }
 
 ShaderOptions techniqueOptions(const Technique& technique) {
@@ -231,9 +232,10 @@ ShaderOptions techniqueOptions(const Technique& technique) {
                                                                        : "sampler2DArray";
     ShaderOptions options{.defines = {{"TECHNIQUE", std::string(technique.name)},
                                       {"MAP_SAMPLER", sampler},
-                                      {"MAP_IS_SUMMED", summed ? "1" : "0"},
-                                      splitDefine(technique)},
+                                      {"MAP_IS_SUMMED", summed ? "1" : "0"}},
                           .substitutions = {{"technique", technique.shaderFile()}}};
+    for (ShaderDefine& define : formatDefines(technique))
+        options.defines.push_back(std::move(define));
     for (std::size_t i = 0; i < technique.parameters.size(); ++i)
         options.defines.push_back(
             {"PARAMETER_" + std::string(technique.parameters[i].name),

@@ -50,9 +50,9 @@ struct ShaderOptions {
     std::map<std::string, std::string> substitutions;  ///< include name -> path
 };
 
-/// Whether the texels of the technique's map are split (shared/filtered_map.glsl): for every pass
-/// that reads or writes them.
-ShaderDefine splitDefine(const Technique& technique);
+/// Channels of the technique's map and whether its texels are split (shared/filtered_map.glsl): for
+/// every pass that reads or writes them.
+std::vector<ShaderDefine> formatDefines(const Technique& technique);
 
 /// Of the passes that include "technique": its file, where each of its parameters lies, and the
 /// sampler of the map that its lookup reads.

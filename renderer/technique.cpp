@@ -627,6 +627,25 @@ int bytesPerTexel(MapFormat format) {
     return 16;
 }
 
+int channelsOf(MapFormat format) {
+    switch (format) {
+        case MapFormat::depth32f:
+        case MapFormat::r32f:
+        case MapFormat::r16f:
+            return 1;
+        case MapFormat::rg32f:
+        case MapFormat::rg16f:
+        case MapFormat::rg32ui:
+            return 2;
+        case MapFormat::rgba32f:
+        case MapFormat::rgba16f:
+        case MapFormat::rg16fSplit:
+        case MapFormat::rgba16:
+            return 4;
+    }
+    return 4;
+}
+
 std::string_view toText(Prefilter prefilter) {
     switch (prefilter) {
         case Prefilter::none:

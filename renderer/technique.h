@@ -38,6 +38,7 @@ enum class MapFormat {
 };
 std::string_view toText(MapFormat format);
 int bytesPerTexel(MapFormat format);
+int channelsOf(MapFormat format);  ///< 1, 2 or 4
 
 /// What is done to the map between depth pass and lookup: nothing; a separable kernel over the
 /// map's values, over the exponentials of which it stores the logarithm, or one that also finds the

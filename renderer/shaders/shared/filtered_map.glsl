@@ -53,9 +53,17 @@ SHARED_FUNCTION real4 packedTexel(real4 value, ShadowConstants shadow) {
     return real4(whole.x / kSplitFactor, whole.y / kSplitFactor, rest.x, rest.y);
 }
 
+// A pass of the GPU also says how many channels its map has: what a texture unit gives for the others is nothing, and no
+// arithmetic is spent on it.
+#ifndef MAP_CHANNELS
+#define MAP_CHANNELS 4
+#endif
+
 SHARED_FUNCTION real4 unpackedTexel(real4 stored, ShadowConstants shadow) {
-    if (!MAP_IS_SPLIT) return stored;
-    return real4(stored.x + stored.z / kSplitFactor, stored.y + stored.w / kSplitFactor, 0.0, 0.0);
+    if (MAP_IS_SPLIT)
+        return real4(stored.x + stored.z / kSplitFactor, stored.y + stored.w / kSplitFactor, 0.0, 0.0);
+    return real4(stored.x, MAP_CHANNELS > 1 ? stored.y : real(0.0), MAP_CHANNELS > 2 ? stored.z : real(0.0),
+                 MAP_CHANNELS > 2 ? stored.w : real(0.0));
 }
 
 // --- The separable prefilter ---
