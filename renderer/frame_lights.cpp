@@ -76,9 +76,9 @@ void Renderer::useViews(std::vector<LightView> fitted) {
     views_ = fitted_;
     served_.clear();
     for (const LightView& view : fitted_)
-        served_.push_back(widthPx_ > 0
-                              ? servedPixels(view, scene_.camera, surfaces_, widthPx_, heightPx_)
-                              : PixelRect());
+        served_.push_back(widthPx_ == 0 ? PixelRect()
+                                        : renderer::servedPixels(view, scene_.camera, surfaces_,
+                                                                 widthPx_, heightPx_));
 }
 
 void Renderer::makeVisibilities() {

@@ -126,6 +126,7 @@ void MapFilter::release() {
     textures_ = {};
     textureEdge_ = 0;
     usedEdge_ = 0;
+    tiles_.forget();
 }
 
 std::size_t MapFilter::bytes() const {

@@ -2,6 +2,7 @@
 // What a renderer holds from frame to frame: scene, targets, maps and programs.
 #include "renderer/renderer.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 

@@ -11,6 +11,10 @@
 //
 //   SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstants shadow)
 //
+// Under a separable kernel it looks up the receiver's place, or places within as many kernels side
+// by side as its parameter "samples" says (lookupSpreadTexels() in prefilter.h): what lies
+// elsewhere may not have been filtered.
+//
 // The file is compiled as GLSL and, by the build, as C++ (cpu_filter.h).
 #pragma once
 

@@ -66,7 +66,7 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
     std::vector<Row> rows;
     for (const renderer::Technique& technique : renderer::techniques())
         if (technique.name == "pcf_disc" || technique.prefilter != renderer::Prefilter::none)
-            rows.push_back({&technique, {}, {}});
+            rows.push_back({.technique = &technique, .passesMs = {}, .sumsMs = {}, .wholeMs = {}});
     renderer::PassClock clock(info);
     for (int round = -1; round < kRounds; ++round)  // the first warms up
         for (Row& row : rows) {
