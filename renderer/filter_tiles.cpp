@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/filter_tiles.h"
 
-#include <cmath>
-#include <vector>
-
 namespace renderer {
 namespace {
 

@@ -84,11 +84,13 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     prepare(technique);
     if (technique.prefilter == Prefilter::none) mapFilter_.release();
     if (!hasLayers(technique)) forgetDepths();  // their count is of an earlier light
+    const int samples =
+        technique.mapSamples(settings.parameters.value_or(technique.standardParameters()));
     int smallest = info_.maxResolution, largest = 0;
     for (std::size_t view = 0; view < views_.size(); ++view) {
         const MapSettings map = mapSettings(settings, view);
         const int other = map.fadeWeight < 1 ? map.fadeFrom : map.resolution;
-        ensureMap(view, std::max(map.resolution, other));
+        ensureMap(view, std::max(map.resolution, other), samples);
         smallest = std::min({smallest, map.resolution, other});
         largest = std::max({largest, map.resolution, other});
     }
@@ -133,6 +135,7 @@ void Renderer::drawShadows(const FrameSettings& settings, const Technique& techn
     {
         const PassScope scope(Pass::depth, clock);
         drawCasters(maps_[view].target, edge, view);
+        if (maps_[view].samples > 1) drawCasters(maps_[view].sampledTarget, edge, view);
     }
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
@@ -162,8 +165,9 @@ void Renderer::drawCasters(const Framebuffer& target, int edge, std::size_t view
 
 void Renderer::filterMap(const Technique& technique, std::size_t view,
                          const VisibleSurfaces* seen) {
-    mapFilter_.run(technique, parametersIn(shadows_[view]), shadows_[view], maps_[view].depths,
-                   filterSpare_, seen);
+    const Map& map = maps_[view];
+    mapFilter_.run(technique, parametersIn(shadows_[view]), shadows_[view],
+                   map.samples > 1 ? map.sampledDepths : map.depths, filterSpare_, seen);
 }
 
 void Renderer::enterLayers(const Technique& technique, const ParameterValues& asked,

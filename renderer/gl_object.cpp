@@ -34,6 +34,14 @@ void setNearestClamped(GLuint texture, int levels) {
     glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
+void throwIfRefused(std::string_view label, int width, int height) {
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+        throw std::runtime_error(
+            "texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
+            std::to_string(height) + " texels: the driver refuses it (GL error " +
+            std::to_string(error) + (error == GL_OUT_OF_MEMORY ? ", out of memory)" : ")"));
+}
+
 Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height, int layers,
                     int levels, std::string_view label) {
     GLuint name = 0;
@@ -44,11 +52,7 @@ Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height,
         glTextureStorage3D(name, levels, internalFormat, width, height, layers);
     else
         glTextureStorage2D(name, levels, internalFormat, width, height);
-    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-        throw std::runtime_error(
-            "texture \"" + std::string(label) + "\" of " + std::to_string(width) + " x " +
-            std::to_string(height) + " texels: the driver refuses it (GL error " +
-            std::to_string(error) + (error == GL_OUT_OF_MEMORY ? ", out of memory)" : ")"));
+    throwIfRefused(label, width, height);
     setNearestClamped(name, levels);
     setLabel(GL_TEXTURE, name, label);
     return texture;
@@ -58,6 +62,17 @@ Texture makeStorage(GLenum target, GLenum internalFormat, int width, int height,
 
 Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label) {
     return makeStorage(GL_TEXTURE_2D, internalFormat, width, height, 1, 1, label);
+}
+
+Texture makeSampledTexture(GLenum internalFormat, int edge, int samples, std::string_view label) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &name);
+    Texture texture(name);
+    forgetEarlierErrors();
+    glTextureStorage2DMultisample(name, samples, internalFormat, edge, edge, GL_TRUE);
+    throwIfRefused(std::to_string(samples) + " samples of " + std::string(label), edge, edge);
+    setLabel(GL_TEXTURE, name, label);
+    return texture;
 }
 
 Texture makeTextureArray(GLenum internalFormat, int width, int height, int layers, int levels,

@@ -69,7 +69,10 @@ using Query = GlHandle<DeleteQuery>;
 /// shows in GL debuggers. Throws std::runtime_error where the driver has no room for it.
 Texture makeTexture(GLenum internalFormat, int width, int height, std::string_view label);
 
-/// The same as a stack of layers, with mip levels for texelFetch.
+/// With several samples of a texel, at least as many as asked for, of a depth format.
+Texture makeSampledTexture(GLenum internalFormat, int edge, int samples, std::string_view label);
+
+/// As makeTexture(), as a stack of layers, with mip levels for texelFetch.
 Texture makeTextureArray(GLenum internalFormat, int width, int height, int layers, int levels,
                          std::string_view label);
 

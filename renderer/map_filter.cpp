@@ -69,16 +69,12 @@ std::size_t area(int edge) {
 }  // namespace
 
 MapFilter::MapFilter(const ShaderLibrary& shaders)
-    : shaders_(shaders), convertPrograms_(techniques().size()), tiles_(shaders) {}
+    : shaders_(shaders), convertPrograms_(2 * techniques().size()), tiles_(shaders) {}
 
 void MapFilter::prepare(const Technique& technique) {
     if (technique.prefilter == Prefilter::none) return;
     tiles_.prepare();
-    Program& convert =
-        convertPrograms_.at(static_cast<std::size_t>(&technique - techniques().data()));
-    if (convert.name() == 0)
-        convert = makeComputeProgram(shaders_, "passes/map_texel.comp",
-                                     inTiles(techniqueOptions(technique)));
+    convertProgram(technique, false);
     if (technique.prefilter == Prefilter::mips) {
         if (mipProgram_.name() == 0)
             mipProgram_ = makeComputeProgram(shaders_, "passes/map_mip.comp", inRows());
@@ -88,6 +84,17 @@ void MapFilter::prepare(const Technique& technique) {
     } else if (isSeparable(technique.prefilter)) {
         for (const GLuint strip : {kShortStrip, kStrip}) lineProgram(technique, strip);
     }
+}
+
+const Program& MapFilter::convertProgram(const Technique& technique, bool sampled) {
+    const auto row = static_cast<std::size_t>(&technique - techniques().data());
+    Program& convert = convertPrograms_.at(sampled ? techniques().size() + row : row);
+    if (convert.name() == 0) {
+        ShaderOptions options = inTiles(techniqueOptions(technique));
+        if (sampled) options.defines.push_back({"SAMPLED", "1"});
+        convert = makeComputeProgram(shaders_, "passes/map_texel.comp", options);
+    }
+    return convert;
 }
 
 const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip) {
@@ -173,8 +180,13 @@ void MapFilter::run(const Technique& technique, const ParameterValues& parameter
                     lookupSpreadTexels(technique, parameters, shadow.prefilter));
     else
         tiles_.forget();
-    glUseProgram(
-        convertPrograms_.at(static_cast<std::size_t>(&technique - techniques().data())).name());
+    const bool sampled = technique.mapSamples(parameters) > 1;
+    glUseProgram(convertProgram(technique, sampled).name());
+    if (sampled) {
+        GLint samples = 0;  // a driver may have more than it was asked for
+        glGetTextureLevelParameteriv(depths.name(), 0, GL_TEXTURE_SAMPLES, &samples);
+        glUniform1i(2, samples);
+    }
     dispatch(depths.name(), 0, FilterTiles::Pass::texels);
     switch (technique.prefilter) {
         case Prefilter::none:

@@ -34,7 +34,8 @@ class MapFilter {
     /// do not compile.
     void prepare(const Technique& technique);
 
-    /// Filters the N x N depths in the corner of `depths`. `shadow` has to be bound as the shadow
+    /// Filters the N x N depths in the corner of `depths`, which has several samples where the
+    /// technique's parameters say so. `shadow` has to be bound as the shadow
     /// block. `spareN`: textures are at least as large as for that N, so that smaller maps need no
     /// new ones. With `seen` a separable kernel may leave out what that does not look up. Throws
     /// std::runtime_error where the driver has no room.
@@ -50,6 +51,8 @@ class MapFilter {
     double readShare() const { return tiles_.readShare(); }
 
   private:
+    /// For depths of one or of several samples.
+    const Program& convertProgram(const Technique& technique, bool sampled);
     const Program& lineProgram(const Technique& technique, GLuint strip);
     void ensureTextures(const Technique& technique, int edge, int layers, bool keepLarger);
     void bind(GLuint source, std::size_t target, int targetLevel) const;
@@ -63,7 +66,9 @@ class MapFilter {
     void sumUp();
 
     ShaderLibrary shaders_;
-    std::vector<Program> convertPrograms_;  // one per row of the technique table, made when used
+    /// Made when used: for every row of the technique table one for depths of one sample, then for
+    /// every row one for several.
+    std::vector<Program> convertPrograms_;
     /// By prefilter, whether texels are split, channels, and strip; made when used.
     std::map<std::tuple<Prefilter, bool, int, GLuint>, Program> linePrograms_;
     Program mipProgram_, sumsProgram_;

@@ -127,7 +127,8 @@ std::size_t Renderer::targetBytes() const {
 std::size_t Renderer::mapBytes() const {
     std::size_t texels = 0;
     for (const Map& map : maps_)
-        texels += static_cast<std::size_t>(map.edge) * static_cast<std::size_t>(map.edge);
+        texels += static_cast<std::size_t>(map.edge) * static_cast<std::size_t>(map.edge) *
+                  static_cast<std::size_t>(map.samples > 1 ? 1 + map.samples : 1);
     return texels * static_cast<std::size_t>(bytesPerTexel(MapFormat::depth32f)) +
            mapFilter_.bytes();
 }
@@ -144,14 +145,20 @@ void Renderer::reserveMap(int edge) {
     reservedEdge_ = edge;
 }
 
-void Renderer::ensureMap(std::size_t view, int resolution) {
+void Renderer::ensureMap(std::size_t view, int resolution, int samples) {
     Map& map = maps_[view];
     const int edge = std::max(resolution, reservedEdge_);
-    if (edge == map.edge) return;
+    if (edge == map.edge && samples == map.samples) return;
     // The old one first: two maps at once may be more than there is room for.
     map = {};
     map.depths = makeTexture(GL_DEPTH_COMPONENT32F, edge, edge, "shadow map");
     map.target = makeFramebuffer({}, map.depths.name(), "shadow map");
+    if (samples > 1) {
+        map.sampledDepths =
+            makeSampledTexture(GL_DEPTH_COMPONENT32F, edge, samples, "sampled shadow map");
+        map.sampledTarget = makeFramebuffer({}, map.sampledDepths.name(), "sampled shadow map");
+    }
+    map.samples = samples;
     map.edge = edge;
 }
 

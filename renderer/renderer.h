@@ -176,7 +176,7 @@ class Renderer {
     void checkSettings(const FrameSettings& settings) const;
     void updateConstants(const FrameSettings& settings);
     void setShadowConstants(const FrameSettings& settings, std::size_t view, int resolution);
-    void ensureMap(std::size_t view, int resolution);
+    void ensureMap(std::size_t view, int resolution, int samples);
     const Program& lookupProgram(const Technique& technique, bool ofPart);
     /// Of one view: depth pass, prefilter and lookup, added to the visibility with the weight.
     void drawShadows(const FrameSettings& settings, const Technique& technique, std::size_t view,
@@ -225,6 +225,9 @@ class Renderer {
         int edge = 0;
         Texture depths;
         Framebuffer target;
+        int samples = 1;        // asked for
+        Texture sampledDepths;  // beside the others, which whoever reads a depth reads
+        Framebuffer sampledTarget;
     };
     std::vector<Map> maps_;  // one for each view
     MapFilter mapFilter_;

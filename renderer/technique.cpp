@@ -147,7 +147,7 @@ constexpr Property kStoredGradientDoesNot[] = {Property::errorFallsWithN, Proper
 /// vsm.glsl. The floor of the variance lies above what rounding makes of it: some steps of the mean
 /// square, each 2^-24 near 1 in 32 bits and 2^-12 in 16.
 struct VarianceParameters {
-    TechniqueParameter all[6];
+    TechniqueParameter all[7];
 };
 constexpr VarianceParameters varianceParameters(float depthBias, float leastVariance) {
     return {{kBiasTexels,
@@ -167,7 +167,14 @@ constexpr VarianceParameters varianceParameters(float depthBias, float leastVari
               .meaning = "weight of the variance that a texel's own slope has",
               .low = 0,
               .high = 1,
-              .standard = 1}}};
+              .standard = 1},
+             {.name = "map_samples",
+              .meaning = "depths in a texel that are averaged, as many as the driver has: 4, or 8; "
+                         "1 has one map",
+              .low = 1,
+              .high = 16,
+              .standard = 1,
+              .whole = true}}};
 }
 constexpr TechniqueParameter kLeastVariance = varianceParameters(0, 1e-6F).all[3];
 constexpr TechniqueParameter kBleeding = varianceParameters(0, 1e-6F).all[4];
@@ -708,6 +715,11 @@ std::optional<std::size_t> Technique::parameterSlot(std::string_view parameter) 
 int Technique::mapLayers(const ParameterValues& values) const {
     const auto slot = parameterSlot(termsParameter);
     return slot ? (static_cast<int>(values[*slot]) + termsPerTexel - 1) / termsPerTexel : 1;
+}
+
+int Technique::mapSamples(const ParameterValues& values) const {
+    const auto slot = parameterSlot("map_samples");
+    return slot ? static_cast<int>(values[*slot]) : 1;
 }
 
 std::span<const Technique> techniques() {

@@ -85,6 +85,8 @@ numbers_of_coverage() {
 numbers_of_techniques() {
     "$bin/technique_times" planar_occluder 0 || die "technique_times failed"
     "$bin/technique_times" yard 0 9 || die "technique_times failed"
+    "$bin/technique_times" terrain 0 evsm4 lvsm csm || die "technique_times failed"
+    "$bin/technique_times" lamps 0 evsm4 || die "technique_times failed"
     "$bin/technique_errors" || die "technique_errors failed"
 }
 

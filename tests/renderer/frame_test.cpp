@@ -263,6 +263,46 @@ TEST(MapFilter, GpuAgreesWithCpuTexelForTexel) {
     }
 }
 
+/// RMS difference of the map's first moments from the mean of 8 x 8 depths in each texel.
+double momentError(renderer::Renderer& frame, float mapSamples) {
+    constexpr int kN = 64, kFiner = 8;
+    const Technique& technique = renderer::findTechnique("vsm");
+    renderer::ParameterValues parameters = technique.standardParameters();
+    setParameter(technique, parameters, "map_samples", mapSamples);
+    frame.render({.technique = &technique, .parameters = parameters, .resolution = kN});
+    const renderer::FilteredTexels found = frame.readFilteredMap();
+    const int guard = (found.edge - kN) / 2;
+    frame.render({.technique = disc(), .resolution = kN * kFiner});
+    const FloatImage depths = frame.readShadowMap();
+    double squares = 0;
+    for (int j = 0; j < kN; ++j)
+        for (int i = 0; i < kN; ++i) {
+            double mean = 0;
+            for (int y = 0; y < kFiner; ++y)
+                for (int x = 0; x < kFiner; ++x)
+                    mean += static_cast<double>(depths.at(kFiner * i + x, kFiner * j + y)) /
+                            (kFiner * kFiner);
+            const auto texel = static_cast<std::size_t>((j + guard) * found.edge + i + guard);
+            squares += std::pow(static_cast<double>(found.texels.at(texel).x) - mean, 2);
+        }
+    return std::sqrt(squares) / kN;
+}
+
+// Four samples in place of one know a texel's share to about a quarter of it.
+TEST(MapFilter, SeveralSamplesOfATexelKnowTheShareThatIsCovered) {
+    renderer::Renderer frame(gl(), tests::edgeScene(11, {.azimuthDeg = 30, .elevationDeg = 55}), 16,
+                             9);
+    frame.setWindowFit(renderer::WindowFit::casters);
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &most);
+    ASSERT_GE(most, 4);
+    EXPECT_LT(momentError(frame, 4), 0.6 * momentError(frame, 1));
+    if (most < 16) {
+        EXPECT_THROW(momentError(frame, 16), std::runtime_error);
+        EXPECT_NO_THROW(momentError(frame, 1)) << "and it goes on working";
+    }
+}
+
 // Bit for bit, though the texture holds another sun's map wherever nothing was filtered.
 TEST(MapFilter, LeavingOutWhatIsNotSeenChangesNoPixel) {
     bool left = false;

@@ -2,11 +2,12 @@
 // Prints what the filtered techniques cost against each other and against the
 // full disc, in one interleaved run at the same softness, so that whatever else
 // the machine does falls on all of them: docs/results/technique-times.md.
-//   technique_times SCENE RADIUS_TEXELS... >> docs/results/technique-times.md   0: the scene's own
-//   softness
+//   technique_times SCENE RADIUS_TEXELS... [TECHNIQUE...] >> docs/results/technique-times.md
+// Radius 0 is the scene's own softness. With names only these, the full disc and vsm.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,8 @@ std::string ratio(const Row& row, const Row& to) {
     return text;
 }
 
-void measure(const renderer::GlInfo& info, const char* scene, double radiusTexels) {
+void measure(const renderer::GlInfo& info, const char* scene, double radiusTexels,
+             const std::vector<std::string>& only) {
     using renderer::Pass;
     renderer::Renderer frame(info, renderer::makeScene(scene), kWidthPx, kHeightPx);
     const auto radius =
@@ -65,7 +67,9 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
                                             : frame.scene().softnessM / frame.window().extentM);
     std::vector<Row> rows;
     for (const renderer::Technique& technique : renderer::techniques())
-        if (technique.name == "pcf_disc" || technique.prefilter != renderer::Prefilter::none)
+        if (technique.name == "pcf_disc" || technique.name == "vsm" ||
+            (only.empty() ? technique.prefilter != renderer::Prefilter::none
+                          : std::find(only.begin(), only.end(), technique.name) != only.end()))
             rows.push_back({.technique = &technique, .passesMs = {}, .sumsMs = {}, .wholeMs = {}});
     renderer::PassClock clock(info);
     for (int round = -1; round < kRounds; ++round)  // the first warms up
@@ -119,16 +123,24 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
 
 int main(int argc, char** argv) {
     std::vector<double> radiiTexels;
+    std::vector<std::string> only;
     for (int i = 2; i < argc; ++i) {
         char* end = nullptr;
-        radiiTexels.push_back(std::strtod(argv[i], &end));
-        if (*end != 0 || !(radiiTexels.back() >= 0)) {
-            radiiTexels.clear();
-            break;
+        const double radius = std::strtod(argv[i], &end);
+        if (*end == 0 && radius >= 0) {
+            radiiTexels.push_back(radius);
+            continue;
+        }
+        try {
+            only.emplace_back(renderer::findTechnique(argv[i]).name);
+        } catch (const std::invalid_argument& error) {
+            std::fprintf(stderr, "technique_times: neither a radius nor a technique: %s\n",
+                         error.what());
+            return 2;
         }
     }
     if (radiiTexels.empty()) {
-        std::fprintf(stderr, "usage: technique_times SCENE RADIUS_TEXELS...\n");
+        std::fprintf(stderr, "usage: technique_times SCENE RADIUS_TEXELS... [TECHNIQUE...]\n");
         return 2;
     }
     const renderer::HeadlessContext context;
@@ -144,6 +156,6 @@ int main(int argc, char** argv) {
         program::buildInfo().compiler.c_str(), context.info().renderer.c_str(),
         context.info().version.c_str(),
         std::string(renderer::PassClock(context.info()).method()).c_str());
-    for (const double radius : radiiTexels) measure(context.info(), argv[1], radius);
+    for (const double radius : radiiTexels) measure(context.info(), argv[1], radius, only);
     return 0;
 }
