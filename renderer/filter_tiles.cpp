@@ -21,6 +21,12 @@ std::size_t area(int edge) {
     return static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge);
 }
 
+/// What a bilinear lookup reads lies up to one and a half texels away; and what rounding moves it
+/// by.
+float lookupReach(float spreadTexels) {
+    return spreadTexels + 2;
+}
+
 }  // namespace
 
 std::vector<ShaderDefine> tileDefines() {
@@ -33,18 +39,20 @@ void FilterTiles::prepare() {
     Program marks = makeComputeProgram(shaders_, "passes/tile_marks.comp", options);
     listsProgram_ = makeComputeProgram(shaders_, "passes/tile_lists.comp", options);
     marksProgram_ = std::move(marks);
-    reserve(1);  // the passes read the lists, if not to the end
 }
 
 bool FilterTiles::costsMoreThanItSaves(const f32::ShadowConstants& shadow, int layers,
-                                       const PixelRect& pixels) {
+                                       const PixelRect& pixels, float spreadTexels) {
+    if (2 * lookupReach(spreadTexels) + 1 > kTile) return true;
     // A kernel that reaches farther needs nearly everything around what is seen, and the search of
     // its surroundings takes as long.
     constexpr int kMostReach = 4;
     if (kernelTaps(shadow) > kMostReach * kTile) return true;
-    // A pixel costs about as much as half a texel's passes, of which half may be saved.
+    // On a software rasteriser a pixel costs a quarter of a texel's passes, and in most scenes a
+    // third of the texels is not seen.
+    constexpr double kTexelsPerPixel = 1.5;
     const double texels = static_cast<double>(area(filteredEdge(shadow))) * layers;
-    return texels < static_cast<double>(pixels.width) * pixels.height;
+    return texels < kTexelsPerPixel * pixels.width * pixels.height;
 }
 
 void FilterTiles::reserve(int tilesEdge) {
@@ -71,11 +79,10 @@ void FilterTiles::find(const f32::ShadowConstants& shadow, int layers, const Vis
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, marks_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, lists_.name());
     glBindTextureUnit(0, seen.positions);
-    glBindTextureUnit(1, seen.planes);
     glUseProgram(marksProgram_.name());
     glUniform4i(0, seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
     glUniform1i(1, tilesEdge_);
-    glUniform1f(2, spreadTexels);
+    glUniform1f(2, lookupReach(spreadTexels));
     glDispatchCompute(static_cast<GLuint>(parts(seen.pixels.width, 16)),
                       static_cast<GLuint>(parts(seen.pixels.height, 8)), 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -86,14 +93,14 @@ void FilterTiles::find(const f32::ShadowConstants& shadow, int layers, const Vis
 }
 
 void FilterTiles::dispatch(Pass pass, int edge, int layers) const {
-    const auto row = static_cast<int>(pass);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, lists_.name());
-    glUniform2i(1, found_ ? row : -1, row * tilesEdge_ * tilesEdge_);
     if (!found_) {
         const auto tiles = static_cast<GLuint>(parts(edge, kTile));
         glDispatchCompute(tiles, tiles, static_cast<GLuint>(layers));
         return;
     }
+    const auto row = static_cast<int>(pass);
+    glUniform2i(1, row, row * tilesEdge_ * tilesEdge_);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, lists_.name());
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, lists_.name());
     glDispatchComputeIndirect(static_cast<GLintptr>(row) * static_cast<GLintptr>(sizeof(Command)));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);

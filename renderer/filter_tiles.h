@@ -24,7 +24,7 @@ std::vector<ShaderDefine> tileDefines();
 
 /// What may look a map up.
 struct VisibleSurfaces {
-    GLuint positions = 0, planes = 0;  ///< as Renderer::Outputs
+    GLuint positions = 0;  ///< as Renderer::Outputs
     PixelRect pixels;
 };
 
@@ -39,16 +39,18 @@ class FilterTiles {
     /// Compiles what find() needs; throws std::runtime_error where it does not compile.
     void prepare();
 
-    /// Whether less is left out than finding it costs, by the sizes alone.
+    /// Whether less is left out than finding it costs, by the sizes alone. `spreadTexels`: between
+    /// a receiver's place on the map and the lookups around it.
     static bool costsMoreThanItSaves(const f32::ShadowConstants& shadow, int layers,
-                                     const PixelRect& pixels);
+                                     const PixelRect& pixels, float spreadTexels);
 
-    /// For the map whose constants are bound. `spreadTexels`: between a receiver's place on the map
-    /// and the lookups around it.
+    /// For the map whose constants are bound, where that does not hold.
     void find(const f32::ShadowConstants& shadow, int layers, const VisibleSurfaces& seen,
               float spreadTexels);
     /// From now on all tiles.
     void forget() { found_ = false; }
+    /// Whether the passes have lists; then their programs are those with LISTED.
+    bool found() const { return found_; }
 
     /// A group for every tile of the pass in every layer; the program in use includes
     /// passes/tiles.glsl.

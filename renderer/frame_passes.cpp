@@ -105,6 +105,9 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
         const PassScope scope(Pass::prepass, clock);
         drawPrepass();
     }
+    // Mesa's llvmpipe runs a compute pass that reads the prepass before that is rasterised, once
+    // another framebuffer is bound.
+    if (info_.softwareRasteriser && technique.prefilter != Prefilter::none) glFinish();
     clearVisibilities();
     for (std::size_t view = 0; view < views_.size(); ++view) {
         const MapSettings map = mapSettings(settings, view);
@@ -140,8 +143,7 @@ void Renderer::drawShadows(const FrameSettings& settings, const Technique& techn
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
         enterLayers(technique, settings.parameters.value_or(technique.standardParameters()), view);
-        const VisibleSurfaces seen{
-            .positions = positions_.name(), .planes = planes_.name(), .pixels = served_[view]};
+        const VisibleSurfaces seen{.positions = positions_.name(), .pixels = served_[view]};
         filterMap(technique, view, settings.filterUnseen ? nullptr : &seen);
     }
     const PassScope scope(Pass::lookup, clock);

@@ -44,7 +44,8 @@ ShaderOptions inRows() {
     return {.defines = {{"GROUP", std::to_string(kGroup)}}, .substitutions = {}};
 }
 
-ShaderOptions inTiles(ShaderOptions options) {
+ShaderOptions inTiles(ShaderOptions options, bool listed) {
+    if (listed) options.defines.push_back({"LISTED", "1"});
     for (ShaderDefine& define : tileDefines()) options.defines.push_back(std::move(define));
     return options;
 }
@@ -68,13 +69,11 @@ std::size_t area(int edge) {
 
 }  // namespace
 
-MapFilter::MapFilter(const ShaderLibrary& shaders)
-    : shaders_(shaders), convertPrograms_(2 * techniques().size()), tiles_(shaders) {}
+MapFilter::MapFilter(const ShaderLibrary& shaders) : shaders_(shaders), tiles_(shaders) {}
 
 void MapFilter::prepare(const Technique& technique) {
     if (technique.prefilter == Prefilter::none) return;
-    tiles_.prepare();
-    convertProgram(technique, false);
+    convertProgram(technique, false, false);
     if (technique.prefilter == Prefilter::mips) {
         if (mipProgram_.name() == 0)
             mipProgram_ = makeComputeProgram(shaders_, "passes/map_mip.comp", inRows());
@@ -82,26 +81,29 @@ void MapFilter::prepare(const Technique& technique) {
         if (sumsProgram_.name() == 0)
             sumsProgram_ = makeComputeProgram(shaders_, "passes/map_sums.comp", inRows());
     } else if (isSeparable(technique.prefilter)) {
-        for (const GLuint strip : {kShortStrip, kStrip}) lineProgram(technique, strip);
+        tiles_.prepare();
+        convertProgram(technique, false, true);
+        for (const GLuint strip : {kShortStrip, kStrip})
+            for (const bool listed : {false, true}) lineProgram(technique, strip, listed);
     }
 }
 
-const Program& MapFilter::convertProgram(const Technique& technique, bool sampled) {
-    const auto row = static_cast<std::size_t>(&technique - techniques().data());
-    Program& convert = convertPrograms_.at(sampled ? techniques().size() + row : row);
+const Program& MapFilter::convertProgram(const Technique& technique, bool sampled, bool listed) {
+    Program& convert = convertPrograms_[{&technique, sampled, listed}];
     if (convert.name() == 0) {
-        ShaderOptions options = inTiles(techniqueOptions(technique));
+        ShaderOptions options = inTiles(techniqueOptions(technique), listed);
         if (sampled) options.defines.push_back({"SAMPLED", "1"});
         convert = makeComputeProgram(shaders_, "passes/map_texel.comp", options);
     }
     return convert;
 }
 
-const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip) {
+const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip, bool listed) {
     Program& line = linePrograms_[{technique.prefilter, technique.format == MapFormat::rg16fSplit,
-                                   channelsOf(technique.format), strip}];
+                                   channelsOf(technique.format), strip, listed}];
     if (line.name() == 0) {
-        ShaderOptions options = inTiles({.defines = formatDefines(technique), .substitutions = {}});
+        ShaderOptions options =
+            inTiles({.defines = formatDefines(technique), .substitutions = {}}, listed);
         options.defines.push_back({"STRIP", std::to_string(strip)});
         options.defines.push_back(
             {"PREFILTER", std::to_string(static_cast<int>(technique.prefilter))});
@@ -174,14 +176,14 @@ void MapFilter::run(const Technique& technique, const ParameterValues& parameter
     const int spare = std::max(spareN - static_cast<int>(shadow.map.x), 0);
     ensureTextures(technique, edge + spare, technique.mapLayers(parameters), spareN > 0);
     usedEdge_ = edge;
+    const float spread = lookupSpreadTexels(technique, parameters, shadow.prefilter);
     if (seen != nullptr && isSeparable(technique.prefilter) &&
-        !FilterTiles::costsMoreThanItSaves(shadow, layers_, seen->pixels))
-        tiles_.find(shadow, layers_, *seen,
-                    lookupSpreadTexels(technique, parameters, shadow.prefilter));
+        !FilterTiles::costsMoreThanItSaves(shadow, layers_, seen->pixels, spread))
+        tiles_.find(shadow, layers_, *seen, spread);
     else
         tiles_.forget();
     const bool sampled = technique.mapSamples(parameters) > 1;
-    glUseProgram(convertProgram(technique, sampled).name());
+    glUseProgram(convertProgram(technique, sampled, tiles_.found()).name());
     if (sampled) {
         GLint samples = 0;  // a driver may have more than it was asked for
         glGetTextureLevelParameteriv(depths.name(), 0, GL_TEXTURE_SAMPLES, &samples);
@@ -210,7 +212,7 @@ void MapFilter::filterLines(const Technique& technique, const f32::ShadowConstan
     const int taps = kernelTaps(shadow);
     if (taps == 0) return;
     const GLuint strip = 2 * taps < static_cast<int>(kStrip) ? kShortStrip : kStrip;
-    glUseProgram(lineProgram(technique, strip).name());
+    glUseProgram(lineProgram(technique, strip, tiles_.found()).name());
     glUniform2i(0, 1, 0);
     dispatch(textures_[0].name(), 1, FilterTiles::Pass::rows);
     glUniform2i(0, 0, 1);

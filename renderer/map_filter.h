@@ -51,9 +51,10 @@ class MapFilter {
     double readShare() const { return tiles_.readShare(); }
 
   private:
-    /// For depths of one or of several samples.
-    const Program& convertProgram(const Technique& technique, bool sampled);
-    const Program& lineProgram(const Technique& technique, GLuint strip);
+    /// For depths of one or of several samples. This one and the next: for all tiles or for lists
+    /// of them.
+    const Program& convertProgram(const Technique& technique, bool sampled, bool listed);
+    const Program& lineProgram(const Technique& technique, GLuint strip, bool listed);
     void ensureTextures(const Technique& technique, int edge, int layers, bool keepLarger);
     void bind(GLuint source, std::size_t target, int targetLevel) const;
     /// Every layer, with the current program; `groups` along x and y.
@@ -66,11 +67,10 @@ class MapFilter {
     void sumUp();
 
     ShaderLibrary shaders_;
-    /// Made when used: for every row of the technique table one for depths of one sample, then for
-    /// every row one for several.
-    std::vector<Program> convertPrograms_;
-    /// By prefilter, whether texels are split, channels, and strip; made when used.
-    std::map<std::tuple<Prefilter, bool, int, GLuint>, Program> linePrograms_;
+    // Made when used.
+    std::map<std::tuple<const Technique*, bool, bool>, Program> convertPrograms_;
+    /// By prefilter, whether texels are split, channels, strip, and whether tiles are listed.
+    std::map<std::tuple<Prefilter, bool, int, GLuint, bool>, Program> linePrograms_;
     Program mipProgram_, sumsProgram_;
     FilterTiles tiles_;
     Prefilter prefilter_ = Prefilter::none;

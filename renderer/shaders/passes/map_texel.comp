@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// From the depth of the casters to what the technique stores of it, guard band included. An invocation does 2 x 4 texels,
-// so that the depths of neighbours are read once.
+// From the depth of the casters to what the technique stores of it, guard band included. An invocation does eight texels
+// of a column, so that the depths of neighbours are read once.
 #include "shared/filters.glsl"
 #include "technique"
-
 #include "passes/tiles.glsl"
 
-layout(local_size_x = TILE / 2, local_size_y = TILE / 4) in;
+layout(local_size_x = TILE, local_size_y = TILE / 8) in;
 
 #ifdef SAMPLED
 layout(binding = 0) uniform sampler2DMS depthMap;
@@ -55,14 +54,14 @@ void convert(ivec2 texel) {
 }
 
 void main() {
-    ivec2 first = tileCorner() + ivec2(gl_LocalInvocationID.xy) * ivec2(2, 4);
+    ivec2 first = tileCorner() + ivec2(gl_LocalInvocationID.xy) * ivec2(1, 8);
     // Written out: where a driver leaves a loop as it is it reads every neighbour again.
     convert(first);
-    convert(first + ivec2(1, 0));
     convert(first + ivec2(0, 1));
-    convert(first + ivec2(1, 1));
     convert(first + ivec2(0, 2));
-    convert(first + ivec2(1, 2));
     convert(first + ivec2(0, 3));
-    convert(first + ivec2(1, 3));
+    convert(first + ivec2(0, 4));
+    convert(first + ivec2(0, 5));
+    convert(first + ivec2(0, 6));
+    convert(first + ivec2(0, 7));
 }

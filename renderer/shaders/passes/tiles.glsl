@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Which TILE x TILE texels of the map a group of a prefilter's pass does: its own of a grid over the whole map, or one
-// of a list (filter_tiles.h).
+// of a list (LISTED; filter_tiles.h).
 
+#ifdef LISTED
 layout(std430, binding = 1) readonly buffer TileLists {
     uvec4 commands[3];  // of an indirect dispatch; w tiles in the list
     uint tiles[];       // x, y in 16 bits each
 };
 
-layout(location = 1) uniform ivec2 list;  // which command, -1 for all tiles; where its list begins
+layout(location = 1) uniform ivec2 list;  // which command, and where its list begins
 
 ivec2 tileCorner() {
-    if (list.x < 0) return ivec2(gl_WorkGroupID.xy) * TILE;
     uint place = gl_WorkGroupID.y * TILES_ACROSS + gl_WorkGroupID.x;
     if (place >= commands[list.x].w) return ivec2(1 << 20);  // the last row is not full: outside the map
     uint tile = tiles[uint(list.y) + place];
     return ivec2(tile & 0xffffu, tile >> 16) * TILE;
 }
+#else
+ivec2 tileCorner() { return ivec2(gl_WorkGroupID.xy) * TILE; }
+#endif
