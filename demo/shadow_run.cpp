@@ -193,6 +193,7 @@ void ShadowRun::chooseTogether(View view) {
     }
     std::vector<rc::DemandHistogram> histograms(maps);
     std::vector<rc::LightData> data(maps);
+    std::vector<bool> unseen(maps);
     for (std::size_t map = 0; map < maps; ++map) {
         rc::Frame& about = data[map].frame;
         about = {.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels(map)};
@@ -200,10 +201,14 @@ void ShadowRun::chooseTogether(View view) {
         if (!reading) continue;
         if (view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
         histograms[map] = histogramOf(*reading);
-        const bool seen = histograms[map].total() > 0 || histograms[map].rejected > 0;
-        data[map].kind = seen ? rc::LightData::Kind::histogram : rc::LightData::Kind::radius;
-        data[map].histogram = &histograms[map];
-        data[map].radiusUv = settings_.slope.c / kUnseenTexels;
+        unseen[map] = histograms[map].total() == 0 && histograms[map].rejected == 0;
+        if (!unseen[map]) {
+            data[map].kind = rc::LightData::Kind::histogram;
+            data[map].histogram = &histograms[map];
+        } else if (lights_->light(map).size() > kUnseenTexels) {
+            data[map].kind = rc::LightData::Kind::radius;
+            data[map].radiusUv = settings_.slope.c / kUnseenTexels;
+        }
     }
     std::vector<rc::Decision> choices(maps);
     const rc::LightSummary summary =
@@ -228,10 +233,11 @@ void ShadowRun::chooseTogether(View view) {
                          .fadeWeight = static_cast<float>(choice.fadeWeight),
                          .fadeFrom = choice.fadeFromSize};
         ChosenResolution& chosen = chosen_.emplace_back(chosenFrom(choice, data[map].frame));
-        if (data[map].kind != rc::LightData::Kind::radius) continue;
+        if (!unseen[map]) continue;
         chosen.need = 0;
         chosen.artifactRatio = chosen.shareAbove = 0;
-        if (choice.reason == rc::Reason::demandMet) chosen.reason = "no penumbra of it in view";
+        if (choice.reason == rc::Reason::demandMet || choice.reason == rc::Reason::heldWithoutData)
+            chosen.reason = "no penumbra of it in view";
     }
     frameSettings_.maps = std::move(settings);
 }
