@@ -77,11 +77,11 @@ TEST(Viewer, ReloadsTheShadersOfTheDemand) {
     EXPECT_EQ(viewer.picture(1).values, before.values) << "the last good ones stay";
 
     files = renderer::ShaderLibrary::embedded().files();
-    const std::string begin = "float pixelDemand(ivec2 pixel) {";
+    const std::string begin = "PixelDemand pixelDemand(ivec2 pixel) {";
     std::string& demand = files["shared/pixel_demand.glsl"];
     const auto at = demand.find(begin);
     ASSERT_NE(at, std::string::npos);
-    demand.insert(at + begin.size(), "if (pixel.x >= 0) return -1.0;");
+    demand.insert(at + begin.size(), "if (pixel.x >= 0) return kAsksForNothing;");
     viewer.reload(renderer::ShaderLibrary(files));
     viewer.settle();
     EXPECT_THAT(viewer.run().chosen().reason, HasSubstr("nothing visible in penumbra"));
