@@ -201,7 +201,7 @@ void ShadowRun::chooseTogether(View view) {
         if (!reading) continue;
         if (view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
         histograms[map] = histogramOf(*reading);
-        unseen[map] = histograms[map].total() == 0 && histograms[map].rejected == 0;
+        unseen[map] = maps > 1 && histograms[map].total() == 0 && histograms[map].rejected == 0;
         if (!unseen[map]) {
             data[map].kind = rc::LightData::Kind::histogram;
             data[map].histogram = &histograms[map];

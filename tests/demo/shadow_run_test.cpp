@@ -360,6 +360,25 @@ TEST(SeveralMaps, OneMapKeepsToABudgetToo) {
     EXPECT_EQ(run.chosen().resolution, free);
 }
 
+TEST(SeveralMaps, ATraceLeavesTheDecisionsForOneMapAsTheyAre) {
+    renderer::Scene sky = renderer::makeScene("planar_occluder");
+    sky.camera.target = {40, 30, 40};
+    sky.camera.pitchDeg = -60;
+    for (const renderer::Scene& scene : {renderer::makeScene("yard"), sky}) {
+        renderer::Renderer frame(gl(), scene, 64, 36), recordedFrame(gl(), scene, 64, 36);
+        const ShadowRun::Settings settings = settingsAt(0.01, 3.47);
+        ShadowRun run(frame, gl(), settings), recorded(recordedFrame, gl(), settings);
+        recorded.startTrace(1 << 18);
+        for (int i = 0; i < 20; ++i) {
+            for (ShadowRun* each : {&run, &recorded}) each->step(nullptr, i == 10);
+            glFinish();
+            EXPECT_EQ(recorded.chosen().resolution, run.chosen().resolution) << i;
+            EXPECT_EQ(recorded.chosen().reason, run.chosen().reason) << i;
+        }
+        EXPECT_EQ(recorded.trace()->frames(), 20U);
+    }
+}
+
 TEST(SeveralMaps, AreRecordedAndDecidedAgainTheSame) {
     renderer::Renderer frame(gl(), renderer::makeScene("lamps"), 96, 54);
     ShadowRun::Settings settings = settingsAt(demo::chooseSoftness(frame, {}, {}).radiusUv, 3.47);
