@@ -92,12 +92,7 @@ void FilterTiles::find(const f32::ShadowConstants& shadow, int layers, const Vis
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-void FilterTiles::dispatch(Pass pass, int edge, int layers) const {
-    if (!found_) {
-        const auto tiles = static_cast<GLuint>(parts(edge, kTile));
-        glDispatchCompute(tiles, tiles, static_cast<GLuint>(layers));
-        return;
-    }
+void FilterTiles::dispatch(Pass pass) const {
     const auto row = static_cast<int>(pass);
     glUniform2i(1, row, row * tilesEdge_ * tilesEdge_);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, lists_.name());

@@ -52,9 +52,9 @@ class FilterTiles {
     /// Whether the passes have lists; then their programs are those with LISTED.
     bool found() const { return found_; }
 
-    /// A group for every tile of the pass in every layer; the program in use includes
-    /// passes/tiles.glsl.
-    void dispatch(Pass pass, int edge, int layers) const;
+    /// A group for every tile of the pass in every layer, once they are found; the program in use
+    /// includes passes/tiles.glsl.
+    void dispatch(Pass pass) const;
 
     /// Share of the tiles that the last pass did. Waits for the GPU.
     double readShare() const;

@@ -47,6 +47,7 @@ ShaderOptions inRows() {
 ShaderOptions inTiles(ShaderOptions options, bool listed) {
     if (listed) options.defines.push_back({"LISTED", "1"});
     for (ShaderDefine& define : tileDefines()) options.defines.push_back(std::move(define));
+    options.defines.push_back({"GROUP", std::to_string(kGroup)});
     return options;
 }
 
@@ -160,9 +161,9 @@ void MapFilter::dispatch(GLuint source, std::size_t target, int targetLevel, GLu
     waitForTexels();
 }
 
-void MapFilter::dispatch(GLuint source, std::size_t target, FilterTiles::Pass pass) const {
+void MapFilter::dispatchTiles(GLuint source, std::size_t target, FilterTiles::Pass pass) const {
     bind(source, target, 0);
-    tiles_.dispatch(pass, usedEdge_, layers_);
+    tiles_.dispatch(pass);
     waitForTexels();
 }
 
@@ -189,7 +190,12 @@ void MapFilter::run(const Technique& technique, const ParameterValues& parameter
         glGetTextureLevelParameteriv(depths.name(), 0, GL_TEXTURE_SAMPLES, &samples);
         glUniform1i(2, samples);
     }
-    dispatch(depths.name(), 0, FilterTiles::Pass::texels);
+    if (tiles_.found()) {
+        dispatchTiles(depths.name(), 0, FilterTiles::Pass::texels);
+    } else {
+        const auto lines = static_cast<GLuint>(edge);
+        dispatch(depths.name(), 0, 0, parts(lines, kGroup), parts(lines, kStrip));
+    }
     switch (technique.prefilter) {
         case Prefilter::none:
         case Prefilter::converted:
@@ -213,10 +219,18 @@ void MapFilter::filterLines(const Technique& technique, const f32::ShadowConstan
     if (taps == 0) return;
     const GLuint strip = 2 * taps < static_cast<int>(kStrip) ? kShortStrip : kStrip;
     glUseProgram(lineProgram(technique, strip, tiles_.found()).name());
+    const auto lines = static_cast<GLuint>(usedEdge_);
+    const GLuint strips = parts(lines, strip);
     glUniform2i(0, 1, 0);
-    dispatch(textures_[0].name(), 1, FilterTiles::Pass::rows);
+    if (tiles_.found())
+        dispatchTiles(textures_[0].name(), 1, FilterTiles::Pass::rows);
+    else
+        dispatch(textures_[0].name(), 1, 0, parts(strips, kGroup), lines);
     glUniform2i(0, 0, 1);
-    dispatch(textures_[1].name(), 0, FilterTiles::Pass::columns);
+    if (tiles_.found())
+        dispatchTiles(textures_[1].name(), 0, FilterTiles::Pass::columns);
+    else
+        dispatch(textures_[1].name(), 0, 0, parts(lines, kGroup), strips);
 }
 
 void MapFilter::addMips(int levels) {

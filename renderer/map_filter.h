@@ -60,8 +60,8 @@ class MapFilter {
     /// Every layer, with the current program; `groups` along x and y.
     void dispatch(GLuint source, std::size_t target, int targetLevel, GLuint groupsX,
                   GLuint groupsY) const;
-    /// The tiles that a pass has to do.
-    void dispatch(GLuint source, std::size_t target, FilterTiles::Pass pass) const;
+    /// The tiles that a pass has to do, where they were found.
+    void dispatchTiles(GLuint source, std::size_t target, FilterTiles::Pass pass) const;
     void filterLines(const Technique& technique, const f32::ShadowConstants& shadow);
     void addMips(int levels);
     void sumUp();

@@ -6,14 +6,27 @@
 // rounding behind, and a least or a greatest cannot be taken out. (M. van Herk, "A fast algorithm for local minimum and
 // maximum filters", 1992.)
 #include "shared/filters.glsl"
-#include "passes/tiles.glsl"
 
+layout(location = 0) uniform ivec2 axis;
+
+// A whole map is done line by line: neighbouring invocations do neighbouring memory.
+#ifdef LISTED
+#include "passes/tiles.glsl"
 layout(local_size_x = TILE, local_size_y = TILE / STRIP) in;
+ivec2 firstTexel() {
+    ivec2 id = ivec2(gl_LocalInvocationID.xy);
+    return tileCorner() + (axis.x == 1 ? ivec2(id.y * STRIP, id.x) : ivec2(id.x, id.y * STRIP));
+}
+#else
+layout(local_size_x = GROUP) in;
+ivec2 firstTexel() {
+    ivec2 id = ivec2(gl_GlobalInvocationID.xy);
+    return axis.x == 1 ? ivec2(id.x * STRIP, id.y) : ivec2(id.x, id.y * STRIP);
+}
+#endif
 
 layout(binding = 0) uniform sampler2DArray map;
 layout(binding = 0) writeonly uniform image2DArray filtered;
-
-layout(location = 0) uniform ivec2 axis;
 
 vec4 tapAt(ivec2 texel) {
     vec4 value = lineTexel(map, texel, int(gl_GlobalInvocationID.z), filteredEdge(shadow) - 1, shadow);
@@ -38,8 +51,7 @@ void write(ivec2 texel, vec4 value) {
 #endif
 
 void main() {
-    ivec2 id = ivec2(gl_LocalInvocationID.xy);
-    ivec2 first = tileCorner() + (axis.x == 1 ? ivec2(id.y * STRIP, id.x) : ivec2(id.x, id.y * STRIP));
+    ivec2 first = firstTexel();
     int taps = kernelTaps(shadow);
     bool gaussian = shadow.prefilter.y != 0.0;
     if (gaussian || 2 * taps < STRIP) {

@@ -3,9 +3,15 @@
 // of a column, so that the depths of neighbours are read once.
 #include "shared/filters.glsl"
 #include "technique"
-#include "passes/tiles.glsl"
 
+#ifdef LISTED
+#include "passes/tiles.glsl"
 layout(local_size_x = TILE, local_size_y = TILE / 8) in;
+ivec2 firstTexel() { return tileCorner() + ivec2(gl_LocalInvocationID.xy) * ivec2(1, 8); }
+#else
+layout(local_size_x = GROUP) in;
+ivec2 firstTexel() { return ivec2(gl_GlobalInvocationID.xy) * ivec2(1, 8); }
+#endif
 
 #ifdef SAMPLED
 layout(binding = 0) uniform sampler2DMS depthMap;
@@ -54,7 +60,7 @@ void convert(ivec2 texel) {
 }
 
 void main() {
-    ivec2 first = tileCorner() + ivec2(gl_LocalInvocationID.xy) * ivec2(1, 8);
+    ivec2 first = firstTexel();
     // Written out: where a driver leaves a loop as it is it reads every neighbour again.
     convert(first);
     convert(first + ivec2(0, 1));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which TILE x TILE texels of the map a group of a prefilter's pass does: its own of a grid over the whole map, or one
-// of a list (LISTED; filter_tiles.h).
+// Which TILE x TILE texels of the map a group of a prefilter's pass does where not all of them are done: one of a list
+// (filter_tiles.h).
 
-#ifdef LISTED
 layout(std430, binding = 1) readonly buffer TileLists {
     uvec4 commands[3];  // of an indirect dispatch; w tiles in the list
     uint tiles[];       // x, y in 16 bits each
@@ -16,6 +15,3 @@ ivec2 tileCorner() {
     uint tile = tiles[uint(list.y) + place];
     return ivec2(tile & 0xffffu, tile >> 16) * TILE;
 }
-#else
-ivec2 tileCorner() { return ivec2(gl_WorkGroupID.xy) * TILE; }
-#endif
