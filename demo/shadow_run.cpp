@@ -34,6 +34,11 @@ constexpr int kUnseenTexels = 256;
 static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
               renderer::DetailProbe::kFineEdge);
 
+renderer::DemandRule gpuRule(const rc::Settings& sizing) {
+    const rc::DemandRule rule = rc::demandRule(sizing);
+    return {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster};
+}
+
 rc::DemandHistogram histogramOf(const renderer::DemandPass::Reading& reading) {
     static_assert(sizeof reading.counters == sizeof(rc::DemandHistogram));
     rc::DemandHistogram histogram;
@@ -106,9 +111,9 @@ void ShadowRun::change(const Settings& settings) {
         next.fadeWeight = 1;
     }
     next.validate(info_);
-    if (settings.technique != nullptr) demand_.prepare(*settings.technique);
-    if (const std::string problem = controller_.reconfigure(sizingOf(settings, info_));
-        !problem.empty())
+    const rc::Settings sizing = sizingOf(settings, info_);
+    if (settings.technique != nullptr) demand_.prepare(*settings.technique, gpuRule(sizing));
+    if (const std::string problem = controller_.reconfigure(sizing); !problem.empty())
         throw std::invalid_argument(problem);
     if (lights_)
         for (std::size_t map = 0; map < lights_->count(); ++map) {
@@ -116,6 +121,10 @@ void ShadowRun::change(const Settings& settings) {
             lights_->reconfigure(map, controller_.settings());
             if (trace_) trace_->reconfigured(map, controller_.settings());
         }
+    // The last frames asked by other radii, or of another map.
+    if (settings.technique != settings_.technique || settings.parameters != settings_.parameters ||
+        settings.radiusUv != settings_.radiusUv || settings.slope != settings_.slope)
+        for (rc::RecentDemand& recent : recent_) recent.clear();
     settings_ = settings;
     frameSettings_ = next;
     if (settings.resolution)
@@ -142,8 +151,7 @@ void ShadowRun::startTrace(std::size_t bytes) {
 }
 
 renderer::DemandRule ShadowRun::demandRule() const {
-    const rc::DemandRule rule = rc::demandRule(controller_.settings());
-    return {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster};
+    return gpuRule(controller_.settings());
 }
 
 void ShadowRun::step(renderer::PassClock* clock, bool cut) {
@@ -152,6 +160,8 @@ void ShadowRun::step(renderer::PassClock* clock, bool cut) {
 
 void ShadowRun::draw(renderer::PassClock* clock, View view) {
     const std::size_t maps = frame_.lightViews().size();
+    if (view == View::another) forgetDemand();
+    fitRecent();
     frameSettings_.maps.clear();
     budget_.reset();
     if (settings_.resolution)
@@ -174,8 +184,9 @@ void ShadowRun::chooseAlone(View view) {
     const auto reading = demand_.newest();
     rc::Frame about{.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels()};
     if (reading && view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
+    if (reading) recent_[0].add(histogramOf(*reading));
     const rc::Decision choice =
-        reading ? controller_.update(histogramOf(*reading), about) : controller_.hold(about);
+        reading ? controller_.update(recent_[0].sum(), about) : controller_.hold(about);
     frameSettings_.resolution = choice.size;
     frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
     frameSettings_.fadeFrom = choice.fadeFromSize;
@@ -191,7 +202,6 @@ void ShadowRun::chooseTogether(View view) {
         lights_->restore(0, sun, {.texels = sun.last.need});
         if (trace_) trace_->begin(*lights_);
     }
-    std::vector<rc::DemandHistogram> histograms(maps);
     std::vector<rc::LightData> data(maps);
     std::vector<bool> unseen(maps);
     for (std::size_t map = 0; map < maps; ++map) {
@@ -200,11 +210,11 @@ void ShadowRun::chooseTogether(View view) {
         const auto reading = demand_.newest(map);
         if (!reading) continue;
         if (view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
-        histograms[map] = histogramOf(*reading);
-        unseen[map] = maps > 1 && histograms[map].total() == 0 && histograms[map].rejected == 0;
+        const rc::DemandHistogram& demand = recent_[map].add(histogramOf(*reading));
+        unseen[map] = maps > 1 && demand.total() == 0 && demand.rejected == 0;
         if (!unseen[map]) {
             data[map].kind = rc::LightData::Kind::histogram;
-            data[map].histogram = &histograms[map];
+            data[map].histogram = &demand;
         } else if (lights_->light(map).size() > kUnseenTexels) {
             data[map].kind = rc::LightData::Kind::radius;
             data[map].radiusUv = settings_.slope.c / kUnseenTexels;
@@ -246,6 +256,7 @@ void ShadowRun::ask(renderer::PassClock* clock) {
     if (clock != nullptr) clock->begin(renderer::Pass::demand);
     if (detailOf_ != frame_.scene().name) {
         detail_.forget();
+        forgetDemand();
         detailOf_ = frame_.scene().name;
     }
     const std::size_t maps = frame_.lightViews().size();
@@ -258,6 +269,27 @@ void ShadowRun::ask(renderer::PassClock* clock) {
     if (clock != nullptr) clock->end(renderer::Pass::demand);
 }
 
+void ShadowRun::askTheRest() {
+    for (std::size_t map = 0; map < frame_.lightViews().size(); ++map)
+        for (int turn = 1; turn < recent_[map].frames(); ++turn) {
+            glFinish();
+            if (const auto reading = demand_.newest(map)) recent_[map].add(histogramOf(*reading));
+            demand_.submit(frame_, demandRule(), nullptr, map);
+        }
+}
+
+void ShadowRun::forgetDemand() {
+    demand_.forget();
+    for (rc::RecentDemand& recent : recent_) recent.clear();
+}
+
+void ShadowRun::fitRecent() {
+    const int edge = renderer::DemandPass::cellEdge(frame_.widthPx(), frame_.heightPx());
+    const std::size_t maps = frame_.lightViews().size();
+    if (recent_.size() == maps && recent_.front().frames() == edge * edge) return;
+    recent_.assign(maps, rc::RecentDemand(edge * edge));
+}
+
 int ShadowRun::settle() {
     draw(nullptr, View::another);
     if (settings_.resolution) return 1;
@@ -268,10 +300,11 @@ int ShadowRun::settle() {
     };
     // The map's first sizes are the way to the right one, not sizes that were shown, so nothing
     // waits to be lowered from them.
-    constexpr int kUnseenFrames = 4, kQuietFrames = 4;
+    constexpr int kUnseenFrames = 4, kQuietFrames = 2;
     int frames = 1;
     for (int quiet = 0; quiet < kQuietFrames && frames < kMostSettlingFrames; ++frames) {
         const std::vector<ChosenResolution> before = chosen_;
+        askTheRest();
         glFinish();  // so that every frame has the demand of the one before, on any machine
         draw(nullptr, frames < kUnseenFrames ? View::sameUnseen : View::goesOn);
         const bool same = std::ranges::equal(chosen_, before, {}, &ChosenResolution::resolution,

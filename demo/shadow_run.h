@@ -128,8 +128,13 @@ class ShadowRun {
     /// This frame's size, or sizes, from the demand of earlier ones.
     void chooseAlone(View view);
     void chooseTogether(View view);
-    /// What the frame's pixels want of the next map.
+    /// What the frame's pixels want of the next map: some of them, others each time.
     void ask(renderer::PassClock* clock);
+    /// All the others of a still view.
+    void askTheRest();
+    void forgetDemand();
+    /// One for each map, each for as many frames as it takes to ask every pixel.
+    void fitRecent();
 
     renderer::Renderer& frame_;
     renderer::GlInfo info_;
@@ -138,6 +143,7 @@ class ShadowRun {
     renderer::FrameSettings frameSettings_;
     renderer::DemandPass demand_;
     renderer::DetailProbe detail_;
+    std::vector<resolution_controller::RecentDemand> recent_;  // one for each map
     std::string detailOf_;  // the scene that the probe looked at
     int framesToDetail_ = 0;
     std::size_t detailTurn_ = 0;

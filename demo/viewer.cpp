@@ -62,7 +62,7 @@ void Viewer::show(const ViewerState& state) {
     checked(state);
     const renderer::Technique& technique = renderer::findTechnique(state.technique);
     frame_.prepare(technique);
-    view_.prepare(technique);
+    view_.prepare(technique, run_->demandRule());
     try {
         apply(state);
     } catch (const std::exception&) {
@@ -103,7 +103,7 @@ void Viewer::apply(const ViewerState& state) {
 
 void Viewer::reload(const renderer::ShaderLibrary& shaders) {
     renderer::ViewPass view(shaders, kDemandGlsl);
-    view.prepare(renderer::findTechnique(state_.technique));
+    view.prepare(renderer::findTechnique(state_.technique), run_->demandRule());
     run_->reload(shaders);
     view_ = std::move(view);
     otherRun_.reset();  // made again when it is needed

@@ -31,33 +31,35 @@ bool hasOwnRadius(const ShaderLibrary& shaders, const Technique& technique) {
 
 PixelDemandPrograms::PixelDemandPrograms(const ShaderLibrary& shaders, Make make)
     : shaders_(shaders), make_(std::move(make)) {
-    programs_.emplace(nullptr, make_({.defines = {{"MAP_SAMPLER", "sampler2D"}},
-                                      .substitutions = {{"demand", kDemandInclude},
-                                                        {"technique", "shared/one_radius.glsl"}}}));
+    programOf({nullptr, false});
 }
 
-const Program& PixelDemandPrograms::programOf(const Technique& technique) {
-    const Technique* own = hasOwnRadius(shaders_, technique) ? &technique : nullptr;
-    auto program = programs_.find(own);
-    if (program == programs_.end()) {
-        ShaderOptions options = techniqueOptions(technique);
-        options.substitutions.emplace("demand", kDemandInclude);
-        program = programs_.emplace(own, make_(options)).first;
-    }
-    return program->second;
+const Program& PixelDemandPrograms::programOf(const Technique& technique, const DemandRule& rule) {
+    return programOf({hasOwnRadius(shaders_, technique) ? &technique : nullptr,
+                      rule.contrastExponent != 0});
 }
 
-void PixelDemandPrograms::prepare(const Technique& technique) {
-    programOf(technique);
+const Program& PixelDemandPrograms::programOf(Key key) {
+    if (const auto program = programs_.find(key); program != programs_.end())
+        return program->second;
+    const auto& [technique, withContrast] = key;
+    ShaderOptions options;
+    if (technique != nullptr)
+        options = techniqueOptions(*technique);
+    else
+        options = {.defines = {{"MAP_SAMPLER", "sampler2D"}},
+                   .substitutions = {{"technique", "shared/one_radius.glsl"}}};
+    options.substitutions.emplace("demand", kDemandInclude);
+    if (withContrast) options.defines.push_back({"WITH_CONTRAST", "1"});
+    return programs_.emplace(key, make_(options)).first->second;
 }
 
 void PixelDemandPrograms::prepareAs(const PixelDemandPrograms& other) {
-    for (const auto& [technique, program] : other.programs_)
-        if (technique != nullptr) prepare(*technique);
+    for (const auto& [key, program] : other.programs_) programOf(key);
 }
 
 void PixelDemandPrograms::use(const Renderer::Outputs& frame, const DemandRule& rule) {
-    const Program& program = programOf(*frame.technique);
+    const Program& program = programOf(*frame.technique, rule);
     const std::array<GLuint, kTextures> textures = {frame.positions,  frame.planes,
                                                     frame.visibility, frame.normals,
                                                     frame.albedos,    frame.depths};
@@ -89,9 +91,8 @@ void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock
     frame.bindConstants(view);
     if (clock != nullptr) clock->begin(Pass::demand);
     programs_.use(*inputs, rule);
-    while (rings_.size() <= view)
-        rings_.push_back(std::make_unique<CounterRing>(kCounters, "demand"));
-    CounterRing& ring = *rings_[view];
+    while (answers_.size() <= view) answers_.push_back(std::make_unique<Answers>());
+    CounterRing& ring = answers_[view]->ring;
     const SparsePixels pixels = sparsePixels(frame, ring.submissions());
     glUniform3i(2, pixels.cell.x, pixels.cell.y, pixels.cell.z);
     ring.begin();
@@ -101,27 +102,36 @@ void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock
 }
 
 std::optional<DemandPass::Reading> DemandPass::newest(std::size_t view) {
-    if (view >= rings_.size()) return std::nullopt;
-    const auto newest = rings_[view]->newest();
-    if (!newest) return std::nullopt;
+    if (view >= answers_.size()) return std::nullopt;
+    const auto newest = answers_[view]->ring.newest();
+    if (!newest || newest->submission < answers_[view]->forgottenBefore) return std::nullopt;
     Reading reading{.counters = {}, .ageFrames = newest->age};
     std::copy_n(newest->counters.begin(), kCounters, reading.counters.begin());
     return reading;
 }
 
 int DemandPass::lost() const {
-    return std::accumulate(rings_.begin(), rings_.end(), 0,
-                           [](int sum, const auto& ring) { return sum + ring->lost(); });
+    return std::accumulate(answers_.begin(), answers_.end(), 0,
+                           [](int sum, const auto& map) { return sum + map->ring.lost(); });
+}
+
+void DemandPass::forget() {
+    for (const auto& map : answers_) map->forgottenBefore = map->ring.submissions();
+}
+
+int DemandPass::cellEdge(int widthPx, int heightPx) {
+    constexpr std::int64_t kLargePx = 1 << 19;
+    return std::int64_t{widthPx} * heightPx > kLargePx ? kLargeCellEdge : kCellEdge;
 }
 
 SparsePixels sparsePixels(const Renderer& frame, std::uint64_t turn) {
-    constexpr int kEdge = DemandPass::kCellEdge;
-    const glm::ivec2 pixel = pixelOfCell(kEdge, turn);
-    const auto groups = [](int pixelsAlong, int perGroup) {
-        const int cells = (pixelsAlong + kEdge - 1) / kEdge;
+    const int edge = DemandPass::cellEdge(frame.widthPx(), frame.heightPx());
+    const glm::ivec2 pixel = pixelOfCell(edge, turn);
+    const auto groups = [edge](int pixelsAlong, int perGroup) {
+        const int cells = (pixelsAlong + edge - 1) / edge;
         return static_cast<GLuint>((cells + perGroup - 1) / perGroup);
     };
-    return {{pixel, kEdge}, groups(frame.widthPx(), 16), groups(frame.heightPx(), 8)};
+    return {{pixel, edge}, groups(frame.widthPx(), 16), groups(frame.heightPx(), 8)};
 }
 
 }  // namespace renderer

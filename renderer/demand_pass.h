@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/counter_ring.h"
@@ -42,14 +43,14 @@ struct DemandRule {
 bool hasOwnRadius(const ShaderLibrary& shaders, const Technique& technique);
 
 /// Programs with shared/pixel_demand.glsl: one for the techniques with the same radius everywhere
-/// and one for each that has its own, made when first used.
+/// and one for each that has its own, each with and without the contrast term, made when first used.
 class PixelDemandPrograms {
   public:
     using Make = std::function<Program(const ShaderOptions&)>;
     /// Throws what `make` throws, as all below.
     PixelDemandPrograms(const ShaderLibrary& shaders, Make make);
-    /// Makes the one for a technique, if it has not been.
-    void prepare(const Technique& technique);
+    /// Makes the one for a technique and a rule, if it has not been.
+    void prepare(const Technique& technique, const DemandRule& rule) { programOf(technique, rule); }
     /// Makes all that another one has.
     void prepareAs(const PixelDemandPrograms& other);
     /// Uses the one for a frame, with the frame's textures and the rule in place.
@@ -58,11 +59,14 @@ class PixelDemandPrograms {
     static constexpr unsigned kTextures = 6;
 
   private:
-    const Program& programOf(const Technique& technique);
+    /// The technique (null: the same radius everywhere), and whether with the contrast term.
+    using Key = std::pair<const Technique*, bool>;
+    const Program& programOf(const Technique& technique, const DemandRule& rule);
+    const Program& programOf(Key key);
 
     ShaderLibrary shaders_;
     Make make_;
-    std::map<const Technique*, Program> programs_;  // null: the same radius everywhere
+    std::map<Key, Program> programs_;
 };
 
 class DemandPass {
@@ -75,8 +79,12 @@ class DemandPass {
         int ageFrames = 0;  ///< submissions since: 1 for the last but one, 0 for the last
     };
 
-    /// Pixels along the edge of a cell, of which one is asked in each frame.
-    static constexpr int kCellEdge = 4;
+    /// Pixels along the edge of a cell, of which one is asked in each frame: the first, in frames
+    /// of more than 2^19 pixels the second. So a frame of 1280 x 720 asks 25,600 pixels, which is
+    /// no more than what 1 in 16 is of a smaller one, and every pixel has been asked before the
+    /// controller lowers a size (45 frames).
+    static constexpr int kCellEdge = 4, kLargeCellEdge = 6;
+    static int cellEdge(int widthPx, int heightPx);
 
     /// `demandGlsl`: text that defines StairwellDemandRule, stairwellDemand(),
     /// stairwellDemandWeight() and stairwellDemandCounter(). Throws std::runtime_error where it does not compile.
@@ -85,8 +93,10 @@ class DemandPass {
     /// Takes these shaders from now on; what is under way still arrives. Throws std::runtime_error
     /// where one that has been used does not compile, and then the last good ones stay.
     void reload(const ShaderLibrary& shaders);
-    /// Compiles what the technique needs, if it has not been; throws as the constructor does.
-    void prepare(const Technique& technique) { programs_.prepare(technique); }
+    /// Compiles what technique and rule need, if it has not been; throws as the constructor does.
+    void prepare(const Technique& technique, const DemandRule& rule) {
+        programs_.prepare(technique, rule);
+    }
 
     /// Counts the demand of the frame that `frame` drew last. Nothing happens before its first
     /// frame. Which pixel of each cell is asked rotates from call to call, so that as many calls as
@@ -99,6 +109,9 @@ class DemandPass {
     /// absent where there is none. Never waits.
     std::optional<Reading> newest(std::size_t view = 0);
 
+    /// Of the submissions so far: newest() returns none of them any more. After a camera cut.
+    void forget();
+
     int lost() const;  ///< see CounterRing
 
   private:
@@ -106,7 +119,11 @@ class DemandPass {
 
     std::string demandGlsl_;
     PixelDemandPrograms programs_;
-    std::vector<std::unique_ptr<CounterRing>> rings_;  // one for each map
+    struct Answers {
+        CounterRing ring = {kCounters, "demand"};
+        std::uint64_t forgottenBefore = 0;  // a submission
+    };
+    std::vector<std::unique_ptr<Answers>> answers_;  // one for each map
 };
 
 /// Of a pass that asks one pixel of every cell, in groups of 16 x 8 cells.

@@ -44,8 +44,10 @@ class ViewPass {
     /// See DemandPass for `demandGlsl`. Throws std::runtime_error where it does not compile.
     ViewPass(const ShaderLibrary& shaders, const std::string& demandGlsl);
 
-    /// Compiles what the technique needs, if it has not been; throws as the constructor does.
-    void prepare(const Technique& technique) { programs_.prepare(technique); }
+    /// Compiles what technique and rule need, if it has not been; throws as the constructor does.
+    void prepare(const Technique& technique, const DemandRule& rule) {
+        programs_.prepare(technique, rule);
+    }
 
     /// Both frames are drawn and of one size. `other` may be null for a view that does not compare.
     /// Throws std::invalid_argument otherwise.

@@ -131,4 +131,44 @@ struct DemandHistogram {
 };
 static_assert(sizeof(DemandHistogram) == 65 * sizeof(std::uint32_t));
 
+/// The histograms of the last frames together. Where a frame asks a share of its pixels, others
+/// each time, its own histogram leaves the percentile to the few pixels that happened to be asked,
+/// and since sizes rise at once the largest of such guesses would stand. As many frames as it takes
+/// to ask every pixel once say the same in every frame of a still view; in a moving one, a demand
+/// is heard once it has (1 - percentile) of their weight: the next frame for what covers much.
+///
+///     recent.add(histogram);  // every frame with data
+///     controller.update(recent.sum());
+///     recent.clear();         // at a camera cut
+class RecentDemand {
+  public:
+    static constexpr int kMostFrames = 64;
+
+    /// `frames` that count, 1 to kMostFrames; what is outside is taken to the nearer end.
+    explicit constexpr RecentDemand(int frames = 1) noexcept
+        : frames_(frames < 1 ? 1 : frames > kMostFrames ? kMostFrames : frames) {}
+
+    constexpr int frames() const noexcept { return frames_; }
+
+    constexpr const DemandHistogram& add(const DemandHistogram& newest) noexcept {
+        DemandHistogram& oldest = last_[static_cast<std::size_t>(next_)];
+        for (std::size_t b = 0; b < DemandHistogram::kBins; ++b)
+            sum_.counts[b] += newest.counts[b] - oldest.counts[b];
+        sum_.rejected += newest.rejected - oldest.rejected;
+        oldest = newest;
+        next_ = (next_ + 1) % frames_;
+        return sum_;
+    }
+
+    constexpr const DemandHistogram& sum() const noexcept { return sum_; }
+
+    constexpr void clear() noexcept { *this = RecentDemand(frames_); }
+
+  private:
+    std::array<DemandHistogram, kMostFrames> last_{};
+    DemandHistogram sum_{};
+    int frames_ = 1;
+    int next_ = 0;
+};
+
 }  // namespace resolution_controller

@@ -176,8 +176,8 @@ Counters onTheCpu(renderer::Renderer& frame, const renderer::Technique& techniqu
 Counters onTheGpu(renderer::DemandPass& pass, const renderer::Renderer& frame,
                   const renderer::DemandRule& rule) {
     Counters counters{};
-    for (int turn = 0; turn < renderer::DemandPass::kCellEdge * renderer::DemandPass::kCellEdge;
-         ++turn) {
+    const int edge = renderer::DemandPass::cellEdge(frame.widthPx(), frame.heightPx());
+    for (int turn = 0; turn < edge * edge; ++turn) {
         pass.submit(frame, rule);
         glFinish();
         const auto reading = pass.newest();
@@ -206,6 +206,16 @@ TEST(DemandPass, HistogramIsTheCpusOnTheSameSurfaces) {
         }
     }
     EXPECT_EQ(pass.lost(), 0);
+}
+
+TEST(DemandPass, AsksEveryPixelOfALargeFrameOnceToo) {
+    gl();
+    renderer::DemandPass pass(renderer::ShaderLibrary::embedded(), demo::kDemandGlsl);
+    renderer::Renderer frame(gl(), renderer::makeScene("planar_occluder"), 1001, 541);
+    ASSERT_EQ(renderer::DemandPass::cellEdge(1001, 541), renderer::DemandPass::kLargeCellEdge);
+    const renderer::Technique& row = renderer::findTechnique("hard");
+    frame.render({.technique = &row, .resolution = 256});
+    EXPECT_EQ(onTheGpu(pass, frame, {.c = 3.47F}), onTheCpu(frame, row, {.c = 3.47F}));
 }
 
 // The search's taps come from a sine and a cosine, which are each library's own: a tap on the edge
@@ -278,6 +288,13 @@ TEST(DemandPass, GivesTheNewestFinishedReadingOnce) {
     ASSERT_TRUE(last);
     EXPECT_EQ(last->ageFrames, 0);
     EXPECT_FALSE(pass.newest());
+    pass.submit(frame, {});
+    glFinish();
+    pass.forget();
+    EXPECT_FALSE(pass.newest()) << "it was of a view that is over";
+    pass.submit(frame, {});
+    glFinish();
+    EXPECT_TRUE(pass.newest());
 }
 
 // A formula that does not compile is named with our file and line.

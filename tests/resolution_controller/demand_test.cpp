@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace {
 
@@ -192,6 +194,35 @@ TEST(DemandHistogram, CountsAndMerges) {
     a.add(kNan, 7);
     EXPECT_EQ(a.total(), 69u);
     EXPECT_EQ(a.rejected, 9u);
+}
+
+TEST(RecentDemand, IsTheSumOfTheLastFrames) {
+    for (const int frames : {1, 2, 16, 36, rc::RecentDemand::kMostFrames}) {
+        rc::RecentDemand recent(frames);
+        std::vector<rc::DemandHistogram> all;
+        std::mt19937 random(frames);
+        for (int i = 0; i < 3 * frames; ++i) {
+            rc::DemandHistogram& newest = all.emplace_back();
+            for (int point = 0; point < 20; ++point)
+                newest.add(std::exp2(static_cast<float>(random() % 16)), static_cast<std::uint32_t>(random() % 64));
+            newest.add(kNan, static_cast<std::uint32_t>(random() % 3));
+            rc::DemandHistogram expected;
+            for (std::size_t k = all.size() - std::min(all.size(), std::size_t(frames));
+                 k < all.size(); ++k)
+                expected += all[k];
+            EXPECT_EQ(recent.add(newest), expected) << frames << ' ' << i;
+        }
+        recent.clear();
+        EXPECT_EQ(recent.sum(), rc::DemandHistogram());
+        EXPECT_EQ(recent.add(all.front()), all.front()) << "what was cleared does not come back";
+        EXPECT_EQ(recent.frames(), frames);
+    }
+}
+
+TEST(RecentDemand, TakesTheNearerEndForAnUnusableNumberOfFrames) {
+    EXPECT_EQ(rc::RecentDemand(0).frames(), 1);
+    EXPECT_EQ(rc::RecentDemand(-7).frames(), 1);
+    EXPECT_EQ(rc::RecentDemand(1000).frames(), rc::RecentDemand::kMostFrames);
 }
 
 constexpr rc::DemandHistogram filledAtCompileTime() {

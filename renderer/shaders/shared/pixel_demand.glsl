@@ -3,7 +3,8 @@
 // joins the two. No stair-step of the map can show in the sky, on surfaces turned from the light, outside the map and,
 // where the kernel is wider than a pixel, outside penumbrae. A penumbra narrower than a pixel falls between the pixels'
 // samples, so there a pixel counts beside which the same surface has another visibility, as it does without a kernel.
-// Needs filters.glsl, shading.glsl and "technique", which says how wide the kernel is here.
+// Needs filters.glsl, shading.glsl and "technique", which says how wide the kernel is here. WITH_CONTRAST: the rule's
+// contrast exponent is not 0. A program of its own, since a GPU that masks branches shades every pixel twice for it.
 #include "demand"
 
 layout(binding = 0) uniform sampler2D positions;
@@ -34,6 +35,7 @@ bool changesBeside(ivec2 pixel, vec3 position, vec3 plane, float visibility) {
     return false;
 }
 
+#ifdef WITH_CONTRAST
 // Of the edge of a shadow of the sun: how far apart full light and full shadow are on the display, black to white being
 // 1. Without lamps, which could only lessen it. A lamp's shadows count as black on white.
 float shadowContrast(ivec2 pixel, vec3 position, float gloss) {
@@ -44,6 +46,7 @@ float shadowContrast(ivec2 pixel, vec3 position, float gloss) {
                  displayCode(surfaceColour(surface, ray, 0.0, vec3(0.0)));
     return dot(range, vec3(0.2126, 0.7152, 0.0722));
 }
+#endif
 
 struct PixelDemand {
     float texels;  // 0 where the formula rejects the radius, -1 where the pixel asks for nothing
@@ -66,7 +69,10 @@ PixelDemand pixelDemand(ivec2 pixel) {
     bool wide = hasKernel != 0u && max(radius, shadow.kernel.y) >= receiver.footprintUv;
     if (wide && !between) return kAsksForNothing;
     StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);
-    float contrast = rule.z == 0.0 || shadow.towardsLight.w != 0.0 ? 1.0 : shadowContrast(pixel, position.xyz, plane.w);
+    float contrast = 1.0;
+#ifdef WITH_CONTRAST
+    if (shadow.towardsLight.w == 0.0) contrast = shadowContrast(pixel, position.xyz, plane.w);
+#endif
     float texels = stairwellDemand(asked, radius, receiver.footprintUv, contrast, 0.0);
     // Where the penumbra is narrower than a pixel, or there is none, the pixel is one of the edge.
     return PixelDemand(texels, stairwellDemandWeight(wide ? radius : 0.0, receiver.footprintUv));
