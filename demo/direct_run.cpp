@@ -219,7 +219,7 @@ std::vector<DirectRow> readDirect(const std::filesystem::path& folder) {
                         .frameMs = row.number("frame_ms"),
                         .rmse = row.number("rmse"),
                         .rippleP95 = row.number("ripple_p95"),
-                        .ripples = wholeNumbers(row.text("ripple_counts"))});
+                        .ripples = row.wholes("ripple_counts")});
     return rows;
 }
 

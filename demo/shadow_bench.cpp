@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdio>
 
 #include "demo/benchmark.h"
@@ -9,8 +10,10 @@
 #include "demo/policy_comparison.h"
 #include "demo/speed_error_front.h"
 #include "demo/sweep.h"
+#include "demo/sweep_context.h"
 #include "demo/sweep_difference.h"
 #include "demo/sweep_report.h"
+#include "demo/tsv_journal.h"
 #include "program/run_program.h"
 #include "records/slope_file.h"
 #include "records/whole_file.h"
@@ -83,10 +86,11 @@ void printPolicies(const std::vector<demo::PolicyComparison>& comparisons) {
             std::printf("%-10s %-18s", comparison.technique.c_str(),
                         std::string(entry.policy->name).c_str());
             if (entry.result)
-                std::printf(" %8.2f ms  %6.3f of ours  ripple %.3f  %s %.4g\n",
+                std::printf(" %8.2f ms  %6.3f of ours  ripple %.3f  %d to %d  %s %.4g\n",
                             entry.result->geometricMeanMs, entry.timesOurs,
-                            entry.result->ripple(comparison.over),
-                            std::string(entry.policy->parameter).c_str(), entry.result->parameter);
+                            entry.result->ripple(comparison.over), entry.result->smallest,
+                            entry.result->largest, std::string(entry.policy->parameter).c_str(),
+                            entry.result->parameter);
             else if (entry.nearest)
                 std::printf(" cannot keep to %.3f: ripple %.3f at least\n", comparison.bound,
                             entry.nearest->ripple(comparison.over));
@@ -139,6 +143,8 @@ void measureGrowth(const Options& options) {
 void sweep(const Options& options) {
     const demo::SweepSettings settings = sweepSettings(options);
     settings.validate();
+    // Before an hour of measuring:
+    if (options.stability) records::readWholeFile(*options.stability);
     const bool whole = settings.shard.count == 1;
     if (!options.reportAlone || options.direct || options.model) {
         records::createFolders(options.out);
@@ -169,8 +175,12 @@ void sweep(const Options& options) {
 }
 
 void compare(const Options& options) {
-    const auto differences = demo::slowerOrWorse(demo::readSweep(options.compare.at(0)),
-                                                 demo::readSweep(options.compare.at(1)));
+    const demo::SweepTable before = demo::readSweep(options.compare.at(0));
+    const demo::SweepTable now = demo::readSweep(options.compare.at(1));
+    for (const std::string& difference :
+         demo::contextDifferences(before.context, now.context, {"build", "GL", "driver", "plan"}))
+        std::printf("note: times may not compare: %s\n", difference.c_str());
+    const auto differences = demo::slowerOrWorse(before, now);
     for (const demo::SweepDifference& difference : differences)
         std::printf("%s\t%d\t%s\t%d\t%s\t%.5g\t%.5g\n", difference.scene.c_str(), difference.frame,
                     difference.technique.c_str(), difference.resolution, difference.what.c_str(),
@@ -179,11 +189,27 @@ void compare(const Options& options) {
 }
 
 void recommend(const Options& options) {
-    const auto all =
-        demo::speedAndErrors(demo::readSweep(*options.recommendFrom), options.recommendScene);
+    if (!options.wish.mostError && !options.wish.mostMs)
+        throw std::invalid_argument("--recommend needs --max-error, --max-ms or both");
+    for (const auto& [name, limit] : {std::pair{"--max-error", options.wish.mostError},
+                                      std::pair{"--max-ms", options.wish.mostMs}})
+        if (limit && !(*limit >= 0))
+            throw std::invalid_argument(std::string(name) + " is " + demo::tsvNumber(*limit) +
+                                        ", must be at least 0");
+    const demo::SweepTable table = demo::readSweep(*options.recommendFrom);
+    const std::string& scene = options.recommendScene;
+    if (!scene.empty() &&
+        std::find(table.scenes.begin(), table.scenes.end(), scene) == table.scenes.end()) {
+        std::string known;
+        for (const std::string& name : table.scenes) known += (known.empty() ? "" : ", ") + name;
+        throw std::runtime_error(options.recommendFrom->string() + ": has no scene \"" + scene +
+                                 "\"; it has: " + known);
+    }
+    const auto all = demo::speedAndErrors(table, scene);
     if (all.empty())
         throw std::runtime_error(options.recommendFrom->string() +
-                                 ": holds no finished cells of \"" + options.recommendScene + "\"");
+                                 ": no technique and size was measured in every frame of " +
+                                 (scene.empty() ? "all scenes" : scene));
     const demo::SpeedAndError* best = demo::recommended(all, options.wish);
     if (best == nullptr)
         std::printf("nothing in the sweep meets it\n");
@@ -256,44 +282,57 @@ int main(int argc, char** argv) {
     app.add_option("--rounds", options.rounds,
                    "timed visits of each cell; default: 5, in a sweep 3");
     app.add_flag("--quick", options.quick, "half the viewport's edges, three rounds");
-    app.add_flag(
+    CLI::Option* const sweepFlag = app.add_flag(
         "--sweep", options.sweep,
         "measure a table of path frame x technique x size that sizing policies are compared "
         "from, or go on with the one in --out");
     app.add_flag("--report", options.reportAlone,
-                 "with --sweep: measure nothing, write the report of what lies in --out");
+                 "with --sweep: measure nothing, write the report of what lies in --out")
+        ->needs(sweepFlag);
     app.add_flag("--direct", options.direct,
                  "with --sweep --report: draw the calibrated policies' frames directly, as a sweep "
-                 "without shards does at its end");
+                 "without shards does at its end")
+        ->needs(sweepFlag);
     app.add_flag("--growth", options.growth,
                  "measure how cost grows with N, taps, triangles, lights and pixels, into --out");
     app.add_flag("--model", options.model,
-                 "with --sweep: also the errors against an area light, by ray casting");
+                 "with --sweep: also the errors against an area light, by ray casting")
+        ->needs(sweepFlag);
     app.add_option("--sizes", options.sizes, "sizes of the sweep, levels of the controller")
         ->delimiter(',')
+        ->needs(sweepFlag)
         ->capture_default_str();
     app.add_option("--softness", options.softness,
                    "of the sweep, as factors of each scene's own softness")
         ->delimiter(',')
+        ->needs(sweepFlag)
         ->capture_default_str();
     app.add_option("--frames", options.frames, "frames of each scene's path in the sweep")
+        ->needs(sweepFlag)
         ->capture_default_str();
     app.add_option("--most-ms", options.mostFrameMs,
                    "cells of the sweep that are predicted to take longer are skipped")
+        ->needs(sweepFlag)
         ->capture_default_str();
     app.add_option("--shard", options.shard, "INDEX/COUNT: this part of the sweep")
+        ->needs(sweepFlag)
         ->capture_default_str();
     app.add_option("--stability", options.stability,
-                   "with --sweep: table of technique_errors for the report");
+                   "with --sweep: table of technique_errors for the report")
+        ->needs(sweepFlag);
     app.add_option("--compare", options.compare,
                    "OLD NEW: what of two sweeps' folders got slower or worse beyond noise")
         ->expected(2);
-    app.add_option("--recommend", options.recommendFrom,
-                   "folder of a sweep: the cheapest technique and size that meet --max-error, or "
-                   "the most exact within --max-ms");
-    app.add_option("--scene", options.recommendScene, "with --recommend: the scene; default: all");
-    app.add_option("--max-error", options.wish.mostError, "with --recommend: RMSE");
-    app.add_option("--max-ms", options.wish.mostMs, "with --recommend: milliseconds a frame");
+    CLI::Option* const recommendation = app.add_option(
+        "--recommend", options.recommendFrom,
+        "folder of a sweep: the cheapest technique and size that meet --max-error, or "
+        "the most exact within --max-ms");
+    app.add_option("--scene", options.recommendScene, "with --recommend: the scene; default: all")
+        ->needs(recommendation);
+    app.add_option("--max-error", options.wish.mostError, "with --recommend: RMSE")
+        ->needs(recommendation);
+    app.add_option("--max-ms", options.wish.mostMs, "with --recommend: milliseconds a frame")
+        ->needs(recommendation);
     app.callback([&] {
         if (options.out.empty() && options.compare.empty() && !options.recommendFrom)
             throw CLI::RequiredError("--out");

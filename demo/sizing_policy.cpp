@@ -158,4 +158,27 @@ int chosenSize(const SizingPolicy& policy, const FrameFacts& facts, double param
     return found == sizes.end() ? sizes.back() : *found;
 }
 
+std::vector<int> chosenSizes(const SizingPolicy& policy, const FrameFacts& facts,
+                             std::span<const double> parameters, std::span<const int> sizes) {
+    std::vector<int> chosen(parameters.size());
+    if (parameters.empty()) return chosen;
+    const auto ask = [&](std::size_t i) {
+        chosen[i] = chosenSize(policy, facts, parameters[i], sizes);
+    };
+    ask(0);
+    if (parameters.size() > 1) ask(parameters.size() - 1);
+    const std::function<void(std::size_t, std::size_t)> fillBetween = [&](std::size_t first,
+                                                                          std::size_t last) {
+        if (last - first < 2) return;
+        if (chosen[first] == chosen[last])
+            return std::fill(&chosen[first + 1], &chosen[last], chosen[first]);
+        const std::size_t middle = (first + last) / 2;
+        ask(middle);
+        fillBetween(first, middle);
+        fillBetween(middle, last);
+    };
+    fillBetween(0, parameters.size() - 1);
+    return chosen;
+}
+
 }  // namespace demo

@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "resolution_controller/demand.h"
 #include "resolution_controller/levels.h"
@@ -48,5 +49,10 @@ const SizingPolicy& automaticPolicy();
 /// the policy takes; the largest where none is.
 int chosenSize(const SizingPolicy& policy, const FrameFacts& facts, double parameter,
                std::span<const int> sizes);
+
+/// chosenSize() for each of ascending parameters. A larger one never takes a smaller map, so that
+/// between two with the same size none is asked.
+std::vector<int> chosenSizes(const SizingPolicy& policy, const FrameFacts& facts,
+                             std::span<const double> parameters, std::span<const int> sizes);
 
 }  // namespace demo

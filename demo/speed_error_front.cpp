@@ -55,9 +55,9 @@ std::vector<SpeedAndError> speedAndErrors(const SweepTable& table, const std::st
 const SpeedAndError* recommended(const std::vector<SpeedAndError>& all, const Wish& wish) {
     const SpeedAndError* best = nullptr;
     for (const SpeedAndError& point : all) {
-        if (wish.mostError >= 0 && !(point.error <= wish.mostError)) continue;
-        if (wish.mostMs >= 0 && !(point.frameMs <= wish.mostMs)) continue;
-        const bool better = best == nullptr || (wish.mostError >= 0 ? point.frameMs < best->frameMs
+        if (wish.mostError && !(point.error <= *wish.mostError)) continue;
+        if (wish.mostMs && !(point.frameMs <= *wish.mostMs)) continue;
+        const bool better = best == nullptr || (wish.mostError ? point.frameMs < best->frameMs
                                                                     : point.error < best->error);
         if (better) best = &point;
     }

@@ -2,6 +2,7 @@
 // Which techniques and sizes are worth having: no other one is both faster and more exact.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ std::vector<SpeedAndError> speedAndErrors(const SweepTable& table, const std::st
 /// The fastest whose error is at most `mostError` and whose time is at most `mostMs`; with neither
 /// limit reached, null. Among those that meet a limit on time alone, the most exact.
 struct Wish {
-    double mostError = -1;  ///< below 0: no limit
-    double mostMs = -1;
+    std::optional<double> mostError = {};
+    std::optional<double> mostMs = {};
 };
 const SpeedAndError* recommended(const std::vector<SpeedAndError>& all, const Wish& wish);
 

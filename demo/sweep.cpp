@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "demo/ripple_counts.h"
 #include "demo/shadow_run.h"
 #include "demo/sizing_policy.h"
+#include "demo/sweep_context.h"
 #include "demo/swept_view.h"
 #include "demo/thin_detail.h"
 #include "demo/tsv_journal.h"
@@ -67,7 +69,7 @@ struct Measured {
     ShadowRun::PassSpreads passes;
     std::size_t mapBytes = 0;
     renderer::FloatImage visibility;
-    renderer::FloatImage lightMoved, orbited;  // empty but on a path's first frame
+    renderer::FloatImage lightMoved, orbited;
 };
 
 class Sweep {
@@ -85,6 +87,12 @@ class Sweep {
                 throw std::runtime_error(settings.folder.string() +
                                          ": holds a sweep of another plan than \"" +
                                          settings.plan() + "\"; name another folder");
+        // Part of the numbers will be those of before, and the report's context too.
+        for (const std::string& difference :
+             contextDifferences(times_.table().context(), contextOf(context),
+                                {"revision", "build", "GL", "driver"}))
+            std::fprintf(stderr, "shadow_bench: notice: the sweep goes on from another run: %s\n",
+                         difference.c_str());
     }
 
     void run() {
@@ -143,8 +151,7 @@ class Sweep {
         std::set<std::string> done;
         const std::string last(sizingPolicies().back().name);
         for (const TsvRow& row : policies_.table().rows())
-            if (row.text("policy") == last &&
-                wholeNumbers(row.text("sizes")).size() == 2 * kPolicySteps + 1)
+            if (row.text("policy") == last && row.wholes("sizes").size() == 2 * kPolicySteps + 1)
                 done.insert(keyOf(row, {"scene", "frame", "technique"}));
         return done;
     }
@@ -287,7 +294,7 @@ class Sweep {
         const auto largest = std::find_if(sizes.rbegin(), sizes.rend(), usable);
         if (largest == sizes.rend()) return;
         const Measured& reference = *largest;
-        if (unit.frame == 0) addMoved(unit, sizes);
+        addMoved(unit, sizes);
         drawReference(unit, reference.resolution);
         const renderer::FloatImage places = mapPlaces(*frame_);
         const std::vector<Contour> contours = shadowContours(reference.visibility, places);
@@ -381,12 +388,12 @@ class Sweep {
     void writePolicies(const Unit& unit) {
         const FrameFacts facts = frameFacts(*frame_, settings_.slope.slope);
         for (const SizingPolicy& policy : sizingPolicies()) {
-            std::string sizes;
+            std::vector<double> parameters;
             for (int step = -kPolicySteps; step <= kPolicySteps; ++step)
-                sizes +=
-                    (sizes.empty() ? "" : ",") +
-                    std::to_string(chosenSize(policy, facts, policyParameter(policy.standard, step),
-                                              settings_.sizes));
+                parameters.push_back(policyParameter(policy.standard, step));
+            std::string sizes;
+            for (const int size : chosenSizes(policy, facts, parameters, settings_.sizes))
+                sizes += (sizes.empty() ? "" : ",") + std::to_string(size);
             std::vector<std::string> row = unit.key();
             row.emplace_back(policy.name);
             row.push_back(sizes);

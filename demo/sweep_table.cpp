@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "demo/sweep_context.h"
 #include "demo/tsv_journal.h"
 
 namespace demo {
@@ -40,6 +41,10 @@ TsvTable readAll(const std::filesystem::path& folder, const std::string& name,
         const TsvTable one = readTsv(file);
         all.append(one);
         if (all.context().empty()) all.setContext(one.context());
+        for (const std::string& difference :
+             contextDifferences(all.context(), one.context(), {"plan"}))
+            throw std::runtime_error(file.string() + ": is of another sweep than " +
+                                     files.front().string() + ": " + difference);
     }
     return all;
 }
@@ -59,7 +64,7 @@ void takeErrors(SweepCell& cell, const TsvRow& row) {
     cell.ssim = number("ssim");
     cell.rippleP95 = number("ripple_p95");
     cell.rippleMost = number("ripple_max");
-    cell.ripples = wholeNumbers(row.text("ripple_counts"));
+    cell.ripples = row.wholes("ripple_counts");
     cell.edgeWidthRatio = number("edge_width_ratio");
     cell.thinPx = number("thin_px");
     cell.thinRmse = number("thin_rmse");
@@ -144,7 +149,7 @@ SweepTable readSweep(const std::filesystem::path& folder) {
     for (const TsvRow& row : policies.rows())
         table.policySizes[row.text("policy") + "\t" +
                           keyOf(row.text("scene"), row.whole("frame"), row.text("technique"))] =
-            wholeNumbers(row.text("sizes"));
+            row.wholes("sizes");
     return table;
 }
 

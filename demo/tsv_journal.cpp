@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "demo/ripple_counts.h"
 #include "records/whole_file.h"
 
 namespace demo {
@@ -66,6 +67,16 @@ int TsvRow::whole(const std::string& column) const {
         throw std::runtime_error(table_.name_ + ": row " + std::to_string(row_ + 1) + ", column " +
                                  column + " is \"" + text(column) + "\", must be a whole number");
     return static_cast<int>(value);
+}
+
+std::vector<int> TsvRow::wholes(const std::string& column) const {
+    const std::string& found = text(column);
+    try {
+        return wholeNumbers(found);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(table_.name_ + ": row " + std::to_string(row_ + 1) + ", column " +
+                                 column + ": " + error.what());
+    }
 }
 
 std::vector<TsvRow> TsvTable::rows() const {

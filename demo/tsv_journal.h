@@ -25,6 +25,7 @@ class TsvRow {
     const std::string& text(const std::string& column) const;
     double number(const std::string& column) const;  ///< n/a is NaN
     int whole(const std::string& column) const;
+    std::vector<int> wholes(const std::string& column) const;  ///< with commas between
 
   private:
     const TsvTable& table_;

@@ -82,8 +82,7 @@ TEST(Sweep, MeasuresEveryCellAndReports) {
     for (const char* technique : {"pcf_disc", "vsm"})
         EXPECT_TRUE(std::filesystem::exists(
             demo::errorPicture(folder.path(), "planar_occluder", technique)));
-    EXPECT_THAT(records::readWholeFile(folder.path() / "sweep.html"),
-                HasSubstr("measured directly"));
+    EXPECT_THAT(records::readWholeFile(folder.path() / "sweep.html"), HasSubstr("<td>direct</td>"));
 
     // Nothing is left to measure.
     const std::string times = records::readWholeFile(folder.path() / "sweep_times.tsv");
@@ -109,6 +108,13 @@ TEST(Sweep, MeasuresEveryCellAndReports) {
     const demo::SweepTable again = demo::readSweep(folder.path());
     for (const demo::SweepCell& cell : again.cells) EXPECT_EQ(cell.frameMs.count, 2);
 
+    // Of another revision: it goes on, and says so.
+    std::string revised = records::readWholeFile(file);
+    revised.replace(revised.find("revision "), 9, "revision x");
+    records::writeWholeFile(file, revised);
+    EXPECT_THAT(tests::runProgram("shadow_bench", tinySweep(folder.path())).err,
+                HasSubstr("goes on from another run: revision is \"x"));
+
     auto differently = tinySweep(folder.path());
     differently.back() = "80";
     EXPECT_THAT(tests::runProgram("shadow_bench", differently).err, HasSubstr("another plan"));
@@ -129,11 +135,33 @@ TEST(Sweep, ShardsTogetherAreTheWhole) {
             tests::runProgram("shadow_bench", tinySweep(folder.path(), {"--shard", shard}));
         ASSERT_EQ(result.exitCode, 0) << result.err;
     }
-    EXPECT_EQ(demo::readSweep(folder.path()).cells.size(), 4U);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "sweep_times.2of2.tsv"));
+    const tests::TemporaryFolder wholeFolder;
+    ASSERT_EQ(tests::runProgram("shadow_bench", tinySweep(wholeFolder.path())).exitCode, 0);
+    const demo::SweepTable whole = demo::readSweep(wholeFolder.path());
+    const demo::SweepTable parts = demo::readSweep(folder.path());
+    ASSERT_EQ(parts.cells.size(), 4U);
+    EXPECT_EQ(parts.policySizes, whole.policySizes);
+    for (const demo::SweepCell& cell : whole.cells) {
+        const auto* same = parts.find(cell.scene, cell.frame, cell.technique, cell.resolution);
+        ASSERT_NE(same, nullptr);
+        EXPECT_EQ(same->rmse, cell.rmse);
+        EXPECT_EQ(same->ripples, cell.ripples);
+        EXPECT_EQ(same->flickerLight, cell.flickerLight);
+        EXPECT_EQ(same->frameMs.count, cell.frameMs.count);
+    }
     const auto report = tests::runProgram("shadow_bench", tinySweep(folder.path(), {"--report"}));
     EXPECT_EQ(report.exitCode, 0) << report.err;
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "sweep.html"));
+
+    // Parts of different sweeps are not one.
+    const auto second = folder.path() / "sweep_times.2of2.tsv";
+    std::string text = records::readWholeFile(second);
+    const std::string plan = "160 x 90 px, 1 frames";
+    text.replace(text.find(plan), plan.size(), "320 x 90 px, 1 frames");
+    records::writeWholeFile(second, text);
+    EXPECT_THAT(tests::runProgram("shadow_bench", tinySweep(folder.path(), {"--report"})).err,
+                HasSubstr("sweep_times.2of2.tsv: is of another sweep than"));
 }
 
 TEST(Sweep, GoesAlongTheScenesOwnPathsAtEverySoftness) {
@@ -176,13 +204,21 @@ TEST(Sweep, RefusesBadInputInOneSentence) {
              {{"--growth", "--out", out, "--scenes", "yard,city"}, "--growth takes one scene"},
              {{"--growth", "--out", out, "--rounds", "0"}, "rounds is 0"},
              {{"--sweep", "--out", out, "--most-ms", "-1"}, "must be greater than 0"},
+             {{"--sweep", "--out", out, "--stability", out + "/none.md"}, "none.md"},
              {{"--sweep", "--report", "--out", out + "/none"}, "there is no sweep"},
              {{"--compare", out, out}, "there is no sweep"},
-             {{"--recommend", out}, "there is no sweep"}}) {
+             {{"--recommend", out}, "--recommend needs --max-error, --max-ms or both"},
+             {{"--recommend", out, "--max-ms", "nan"}, "--max-ms is n/a, must be at least 0"},
+             {{"--recommend", out, "--max-error", "-1"}, "--max-error is -1"},
+             {{"--recommend", out, "--max-ms", "5"}, "there is no sweep"}}) {
         const auto result = tests::runProgram("shadow_bench", arguments);
         EXPECT_EQ(result.exitCode, 1) << sentence;
         EXPECT_THAT(result.err, HasSubstr(sentence));
     }
+    // What means nothing without --sweep is not ignored.
+    for (const char* option : {"--report", "--direct", "--model"})
+        EXPECT_EQ(tests::runProgram("shadow_bench", {option, "--out", out}).exitCode, 2) << option;
+    EXPECT_EQ(tests::runProgram("shadow_bench", {"--shard", "1/2", "--out", out}).exitCode, 2);
 }
 
 }  // namespace

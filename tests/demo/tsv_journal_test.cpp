@@ -35,6 +35,24 @@ TEST(TsvJournal, GoesOnWhereItWasKilled) {
     EXPECT_EQ(table.rows()[2].whole("ms"), 2);
 }
 
+TEST(TsvJournal, SaysWhereNumbersWithCommasAreNone) {
+    const tests::TemporaryFolder folder;
+    const auto file = folder.path() / "counts.tsv";
+    TsvJournal journal(file, {"counts"}, "");
+    journal.add({"1,20,3"});
+    journal.add({""});
+    journal.add({"1,x"});
+    const demo::TsvTable table = readTsv(file);
+    EXPECT_EQ(table.rows()[0].wholes("counts"), (std::vector<int>{1, 20, 3}));
+    EXPECT_TRUE(table.rows()[1].wholes("counts").empty());
+    try {
+        table.rows()[2].wholes("counts");
+        FAIL() << "no number is taken for one";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("counts.tsv: row 3, column counts: \"1,x\""));
+    }
+}
+
 TEST(TsvJournal, BeginsAnewWhenItWasKilledInItsFirstLines) {
     for (const char* torn : {"", "# pro", "# program bench\n# pl", "# program bench\nscene\tm"}) {
         const tests::TemporaryFolder folder;
