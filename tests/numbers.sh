@@ -99,12 +99,43 @@ numbers_of_sizes() {
     "$bin/size_numbers" cost || die "size_numbers failed"
 }
 
-parts=(benchmarks window study fit bootstrap techniques sizes coverage)
+# README's headline, with the slope that lies beside the logs: docs/results/software-rasteriser.
+numbers_of_headline() {
+    local logs=$root/docs/results/software-rasteriser
+    section "the automatic size against fixed ones: full-disc PCF; then PCSS and VSM"
+    "$bin/shadow_bench" --techniques pcf_disc --slope "$logs/simulated-slope.json" --out "$work/pcf" 2>/dev/null ||
+        die "shadow_bench failed"
+    "$bin/shadow_bench" --techniques pcss,vsm --resolutions auto,2048,4096 --rounds 3 \
+        --slope "$logs/simulated-slope.json" --out "$work/others" 2>/dev/null || die "shadow_bench failed"
+    headline_means "$work/pcf/benchmark.tsv" "$work/others/benchmark.tsv"
+}
+
+# Geometric means over the scenes of what benchmark.tsv holds.
+headline_means() {
+    awk -F'\t' '
+        /^#/ { next }
+        $1 == "scene" { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+        $at["resolution_mode"] == "auto" {
+            automatic[$2, $1] = $at["frame_ms"]
+            if ($at["rmse"] > worst[$2]) worst[$2] = $at["rmse"]
+            next
+        }
+        { key = $2 "\t" $at["resolution"]; logs[key] += log($at["frame_ms"] / automatic[$2, $1]); ++scenes[key] }
+        END {
+            for (key in logs) {
+                split(key, part, "\t")
+                printf "%-10s %5d  %.2f times as fast, %d scenes; automatic: RMSE at most %.4f\n", part[1], part[2],
+                    exp(logs[key] / scenes[key]), scenes[key], worst[part[1]]
+            }
+        }' "$@" | sort
+}
+
+parts=(benchmarks window study fit bootstrap techniques sizes headline coverage)
 [ $# -eq 0 ] || parts=("$@")
 printf 'revision %s, %s, %s cores\n' "$("$bin/study_app" --version)" \
     "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)"
 for part in "${parts[@]}"; do
     declare -F "numbers_of_$part" >/dev/null ||
-        die "numbers: no part '$part': one of benchmarks, window, study, fit, bootstrap, techniques, sizes, coverage"
+        die "numbers: no part '$part': one of benchmarks, window, study, fit, bootstrap, techniques, sizes, headline, coverage"
     "numbers_of_$part"
 done
