@@ -31,6 +31,10 @@ AutomaticAgainstFixed compared(const std::vector<DirectRow>& direct, const Sweep
             automaticMs += both ? automatic->frameMs : NAN;
             fixedMs += both ? fixed->frameMs.median : NAN;
             if (!both) continue;
+            if (automatic->resolution > automatic->reference) {
+                ++result.finerFrames;
+                continue;
+            }
             result.worstRmse = std::max(result.worstRmse, automatic->rmse);
             addCounts(ofScene, automatic->ripples);
         }

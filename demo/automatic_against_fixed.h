@@ -21,10 +21,12 @@ struct AutomaticAgainstFixed {
     std::vector<double> times;
     double geometricMean = 0;  ///< over the scenes; NaN where one was not measured
 
-    // Of the automatic size, over the frames of all scenes that have a time.
+    // Of the automatic size, over the frames of all scenes that have a time and whose map is no
+    // finer than the reference, against which a finer one is not wrong.
     double worstRmse = 0;
     double rippleP95 = 0;   ///< of the scene in which it is largest; in steps of 1/255
     double rippleMost = 0;  ///< of the worst pixel
+    int finerFrames = 0;    ///< that took a map finer than the reference
 };
 
 /// One for each technique and fixed size, techniques in the order of the table.

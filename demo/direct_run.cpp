@@ -78,6 +78,7 @@ class DirectRun {
     std::vector<PolicyResult> missing(const std::string& scene, int frame,
                                       const std::string& technique) const {
         std::vector<PolicyResult> list;
+        if (!settings_.confirmsPolicies) return list;
         for (const PolicyComparison& comparison : comparisons_) {
             if (comparison.technique != technique) continue;
             for (const auto& entry : comparison.entries) {
@@ -119,7 +120,8 @@ class DirectRun {
         const std::vector<Contour> contours = shadowContours(truth, places);
 
         // The policies look at the frame now, not at what the sweep wrote down.
-        const FrameFacts facts = frameFacts(drawn, settings_.slope.slope);
+        const FrameFacts facts =
+            policies.empty() ? FrameFacts{} : frameFacts(drawn, settings_.slope.slope);
         std::map<int, Drawn> bySize;
         std::vector<int> chosen;
         for (const PolicyResult& policy : policies) {

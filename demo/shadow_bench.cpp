@@ -75,6 +75,7 @@ demo::SweepSettings sweepSettings(const Options& options) {
         settings.heightPx /= 2;
         settings.frames = 1;
         settings.rounds = 1;
+        settings.confirmsPolicies = false;
         settings.mostFrameMs = std::min(settings.mostFrameMs, 250.0);
     }
     return settings;
@@ -154,6 +155,12 @@ void sweep(const Options& options) {
         if (!options.reportAlone) demo::runSweep(context.info(), settings, run);
         if (!whole) return;  // the last to come reports: --report
         if (options.direct || !options.reportAlone) demo::runDirect(context.info(), settings, run);
+        if (!settings.confirmsPolicies)
+            std::printf(
+                "quick: one frame, one visit, sizes to %d, cells over %.0f ms skipped; the "
+                "automatic "
+                "size is drawn, other policies' frames are not drawn again to confirm the table\n",
+                settings.sizes.back(), settings.mostFrameMs);
         if (options.model)
             demo::measureModelErrors(context.info(),
                                      {.scenes = settings.scenes,
@@ -281,7 +288,10 @@ int main(int argc, char** argv) {
     app.add_option("--height", options.height, "viewport height in px")->capture_default_str();
     app.add_option("--rounds", options.rounds,
                    "timed visits of each cell; default: 5, in a sweep 3");
-    app.add_flag("--quick", options.quick, "half the viewport's edges, three rounds");
+    app.add_flag(
+        "--quick", options.quick,
+        "half the viewport's edges, three rounds; of a sweep one round, one frame, four sizes, "
+        "and no frames drawn again to confirm the table: under two minutes");
     CLI::Option* const sweepFlag = app.add_flag(
         "--sweep", options.sweep,
         "measure a table of path frame x technique x size that sizing policies are compared "

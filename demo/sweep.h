@@ -35,7 +35,8 @@ struct SweepSettings {
     int frames = 2;          ///< of each scene's path, >= 1
     int rounds = 3;          ///< timed visits of each cell, >= 1
     int widthPx = 640, heightPx = 360;
-    double mostFrameMs = 4000;  ///< cells that are predicted to be slower are skipped, and named
+    double mostFrameMs = 4000;     ///< cells that are predicted to be slower are skipped, and named
+    bool confirmsPolicies = true;  ///< draws calibrated policies' frames again (direct_run.h)
     Shard shard;
     LoadedSlope slope;
     std::filesystem::path folder;

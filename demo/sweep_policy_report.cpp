@@ -78,6 +78,7 @@ struct OverFixed {
     std::vector<double> ratios;  ///< one for each size
     std::vector<std::string> techniques, leftOut;
     double worstRmse = 0;
+    int finerFrames = 0;
 };
 
 OverFixed overFixedSizes(const std::vector<DirectRow>& direct, const SweepTable& table) {
@@ -100,6 +101,7 @@ OverFixed overFixedSizes(const std::vector<DirectRow>& direct, const SweepTable&
         for (auto one = first; one != last; ++one) {
             bySize[static_cast<std::size_t>(one - first)].push_back(one->geometricMean);
             over.worstRmse = std::max(over.worstRmse, one->worstRmse);
+            if (one == first) over.finerFrames += one->finerFrames;
         }
     }
     for (const auto& ratios : bySize) over.ratios.push_back(geometricMeanOf(ratios));
@@ -135,6 +137,10 @@ SweepHeadline sweepHeadline(const std::vector<DirectRow>& direct,
                            scenes + " and " + listed(over.techniques) +
                            "; resolution error of the automatic size at most " +
                            formatted("%.3f", over.worstRmse) + " RMSE in a frame.";
+        if (over.finerFrames > 0)
+            headline.meaning += " " + std::to_string(over.finerFrames) +
+                                " frames took maps finer than the reference, which says nothing "
+                                "of their errors.";
         if (!over.leftOut.empty())
             headline.meaning +=
                 " Without " + listed(over.leftOut) + ", which were not measured in every scene.";
@@ -235,8 +241,10 @@ NamedTable automaticTable(const std::vector<DirectRow>& direct, const SweepTable
         .caption =
             "Time at a fixed size over that at the automatic one: geometric mean over the "
             "scenes, then by scene; 1 and below: nothing is saved there. Errors are those "
-            "of the automatic size over all frames; ripple max is that of the worst pixel.",
-        .head = {"technique", "fixed", "times as fast", "worst RMSE", "ripple p95", "ripple max"},
+            "of the automatic size over all frames but those that took a map finer than the "
+            "reference, counted under finer; ripple max is that of the worst pixel.",
+        .head = {"technique", "fixed", "times as fast", "worst RMSE", "ripple p95", "ripple max",
+                 "finer"},
         .rows = {}};
     summary.head.insert(summary.head.end(), table.scenes.begin(), table.scenes.end());
     for (const AutomaticAgainstFixed& one :
@@ -246,7 +254,8 @@ NamedTable automaticTable(const std::vector<DirectRow>& direct, const SweepTable
                                         formatted("%.2f", one.geometricMean),
                                         formatted("%.4f", one.worstRmse),
                                         formatted("%.3f", one.rippleP95),
-                                        formatted("%.3f", one.rippleMost)};
+                                        formatted("%.3f", one.rippleMost),
+                                        std::to_string(one.finerFrames)};
         for (const double times : one.times) row.push_back(formatted("%.2f", times));
         summary.rows.push_back(std::move(row));
     }

@@ -247,6 +247,15 @@ TEST_F(PolicyComparisonOf, TheAutomaticSizeIsHeldAgainstAFixedOneSceneByScene) {
     EXPECT_NEAR(all[1].rippleP95, 1.5 / 255, 1e-12);
     EXPECT_NEAR(all[1].rippleMost, 4.0 / 255, 1e-12);
 
+    // A map finer than the reference is not wrong by what the two differ in.
+    direct[0].reference = direct[1].reference = 2048;
+    direct[1].resolution = 4096;
+    all = demo::automaticAgainstFixed(direct, table, {2048});
+    EXPECT_EQ(all[0].finerFrames, 1);
+    EXPECT_EQ(all[0].worstRmse, 0.01);
+    EXPECT_THAT(demo::sweepHeadline(direct, demo::comparePolicies(table), table).meaning,
+                HasSubstr("1 frames took maps finer"));
+
     direct.erase(direct.begin());
     all = demo::automaticAgainstFixed(direct, table, {2048});
     EXPECT_TRUE(std::isnan(all[0].times[0])) << "not drawn there";
