@@ -304,7 +304,8 @@ int main(int argc, char** argv) {
                  "without shards does at its end")
         ->needs(sweepFlag);
     app.add_flag("--growth", options.growth,
-                 "measure how cost grows with N, taps, triangles, lights and pixels, into --out");
+                 "measure how cost grows with N, taps, triangles, lights and pixels, into --out")
+        ->excludes(sweepFlag);
     app.add_flag("--model", options.model,
                  "with --sweep: also the errors against an area light, by ray casting")
         ->needs(sweepFlag);

@@ -28,6 +28,8 @@
 namespace demo {
 namespace {
 
+constexpr int kMostViewportPx = 16384;
+
 // After this long, a cell that has been visited twice is visited no more.
 constexpr double kMostCellMs = 6000;
 // The time of a frame at the next size, at least and at most, as a factor: between no growth and
@@ -433,6 +435,12 @@ void SweepSettings::validate() const {
     };
     atLeastOne("frames", frames);
     atLeastOne("rounds", rounds);
+    // Before the journals are begun, which only sweeps of the same plan go on with.
+    for (const auto& [name, edge] : {std::pair{"width", widthPx}, std::pair{"height", heightPx}})
+        if (edge < 1 || edge > kMostViewportPx)
+            throw std::invalid_argument(std::string(name) + " is " + std::to_string(edge) +
+                                        " px, must be in [1, " + std::to_string(kMostViewportPx) +
+                                        "]");
     for (const double factor : softness)
         if (!(factor > 0 && factor <= 100))
             throw std::invalid_argument("softness has " + tsvNumber(factor) +

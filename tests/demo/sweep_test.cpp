@@ -196,6 +196,8 @@ TEST(Sweep, RefusesBadInputInOneSentence) {
              {{"--sweep", "--out", out, "--sizes", "100,200"}, "sizes has 100"},
              {{"--sweep", "--out", out, "--sizes", "256,128"}, "ascending"},
              {{"--sweep", "--out", out, "--frames", "0"}, "frames is 0"},
+             {{"--sweep", "--out", out, "--width", "0"}, "width is 0 px"},
+             {{"--sweep", "--out", out, "--height", "99999"}, "height is 99999 px"},
              {{"--sweep", "--out", out, "--techniques", "vsm:taps=3"}, "taps"},
              {{"--sweep", "--out", out, "--techniques", "pcf_taps:taps"}, "PARAMETER=NUMBER"},
              {{"--sweep", "--out", out, "--techniques", "pcf_taps:taps=999"}, "taps"},
@@ -219,6 +221,9 @@ TEST(Sweep, RefusesBadInputInOneSentence) {
     for (const char* option : {"--report", "--direct", "--model"})
         EXPECT_EQ(tests::runProgram("shadow_bench", {option, "--out", out}).exitCode, 2) << option;
     EXPECT_EQ(tests::runProgram("shadow_bench", {"--shard", "1/2", "--out", out}).exitCode, 2);
+    EXPECT_EQ(tests::runProgram("shadow_bench", {"--sweep", "--growth", "--out", out}).exitCode, 2);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()))
+        << "a wrong word leaves no journal behind";
 }
 
 }  // namespace
