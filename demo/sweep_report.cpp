@@ -60,7 +60,6 @@ std::string summaryText(const SweepHeadline& headline,
         text += "**" + headline.number + "** " + headline.meaning + "\n\n";
     std::vector<NamedTable> quoted = {techniqueTable(comparisons)};
     if (!direct.empty()) quoted.push_back(automaticTable(direct, table));
-    quoted.push_back(slopeTable(table));
     for (const NamedTable& one : quoted)
         text += one.caption + " ([" + one.name + ".tsv](" + one.name + ".tsv))\n\n" +
                 markdownTable(one) + "\n";
