@@ -332,13 +332,18 @@ TEST_F(PolicyComparisonOf, AFolderWithoutASweepIsAnError) {
     EXPECT_THROW(demo::readSweep(folder_.path() / "nothing"), std::runtime_error);
 }
 
-TEST(SizingPolicy, TakesLevelsWithinTheLimits) {
+demo::FrameFacts factsWithoutDemand() {
     demo::FrameFacts facts;
     facts.coveredPx = 90000;
     facts.mapExtentM = 8;
     facts.distanceM = 10;
     facts.casterRadiusPx = 200;
     facts.screenEdgePx = 640;
+    return facts;
+}
+
+TEST(SizingPolicy, TakesLevelsWithinTheLimits) {
+    demo::FrameFacts facts = factsWithoutDemand();
     facts.demand = [](const resolution_controller::DemandRule& rule) {
         resolution_controller::DemandHistogram histogram;
         for (int i = 0; i < 100; ++i) histogram.add(rule.c * 100);
@@ -371,12 +376,7 @@ TEST(SizingPolicy, TakesLevelsWithinTheLimits) {
 
 TEST(SizingPolicy, ManyParametersTakeTheSizesOfEachAndAreAskedWhereThoseChangeAlone) {
     int asked = 0;
-    demo::FrameFacts facts;
-    facts.coveredPx = 90000;
-    facts.mapExtentM = 8;
-    facts.distanceM = 10;
-    facts.casterRadiusPx = 200;
-    facts.screenEdgePx = 640;
+    demo::FrameFacts facts = factsWithoutDemand();
     facts.demand = [&](const resolution_controller::DemandRule& rule) {
         ++asked;
         resolution_controller::DemandHistogram histogram;
