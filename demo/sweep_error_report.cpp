@@ -104,7 +104,8 @@ void addRipples(records::HtmlPage& page, const SweepTable& table) {
               .yLabel = "edge ripple, 95 % of the contour pixels",
               .series = {}};
     PlotSeries predicted{.name = "straight edges", .points = {}, .line = true};
-    PlotSeries limit{.name = "limit 2/(pi r/a)", .points = {}, .line = true};
+    // Grey: there are more series than colours.
+    PlotSeries limit{.name = "limit 2/(pi r/a)", .points = {}, .line = true, .grey = true};
     for (double ratio = 0.5; ratio < 70; ratio *= 1.2) {
         predicted.points.emplace_back(ratio, kRippleTimesRatio / ratio);
         limit.points.emplace_back(ratio, 2 / (std::numbers::pi * ratio));
