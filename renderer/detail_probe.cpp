@@ -80,7 +80,7 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     frame.bindConstants(view);
     glNamedBufferSubData(shadowBlock_.name(), 0, sizeof shadow, &shadow);
     glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
-    frame.drawCasters(target_, kDrawnEdge, view);
+    frame.drawCasters(target_, kDrawnEdge, shadow);
 
     const SparsePixels pixels = sparsePixels(frame, answers.ring.submissions() / kTiles);
     glUseProgram(program_.name());

@@ -2,6 +2,7 @@
 // The passes of a frame, in their order.
 #include <array>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <memory>
 #include <stdexcept>
@@ -60,6 +61,40 @@ void clearDepths(const Framebuffer& target, int edge) {
     glDisable(GL_SCISSOR_TEST);
 }
 
+/// As depth.vert does it.
+glm::dmat4 mapClip(const f32::ShadowConstants& shadow) {
+    const glm::dmat4 h = glm::transpose(glm::dmat4(shadow.shadowFromWorld));
+    glm::dmat4 clip(2.0 * h[0] - h[3], 2.0 * h[1] - h[3], h[2], h[3]);
+    if (shadow.scale.w > 0) {
+        const auto nearM = static_cast<double>(shadow.scale.x);
+        const auto rangeM = static_cast<double>(shadow.scale.y);
+        clip[2] = (h[3] - glm::dvec4(0, 0, 0, nearM)) * ((nearM + rangeM) / rangeM);
+    }
+    return glm::transpose(clip);
+}
+
+/// Of the prepass.
+ConvexBody seenVolume(const f32::ViewConstants& view, const Bounds& surfaces) {
+    const glm::vec3 eye(view.eye);
+    return clipVolume(glm::translate(glm::dmat4(view.clipFromEyeRelative), -glm::dvec3(eye)), false,
+                      {glm::min(surfaces.low, eye), glm::max(surfaces.high, eye)});
+}
+
+/// Of the vertex array that is bound. Returns the number of triangles.
+std::size_t drawRuns(std::span<const IndexRun> runs) {
+    std::vector<GLsizei> counts;
+    std::vector<const void*> firsts;
+    std::size_t indices = 0;
+    for (const IndexRun& run : runs) {
+        counts.push_back(static_cast<GLsizei>(run.count));
+        firsts.push_back(reinterpret_cast<const void*>(run.first * sizeof(std::uint32_t)));
+        indices += run.count;
+    }
+    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, firsts.data(),
+                        static_cast<GLsizei>(runs.size()));
+    return indices / 3;
+}
+
 /// Of a map's technique, layers among them.
 ParameterValues parametersIn(const f32::ShadowConstants& shadow) {
     ParameterValues values;
@@ -103,12 +138,13 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
     updateConstants(settings);
     {
         const PassScope scope(Pass::prepass, clock);
-        drawPrepass();
+        drawPrepass(settings.drawOutside);
     }
     // Mesa's llvmpipe runs a compute pass that reads the prepass before that is rasterised, once
     // another framebuffer is bound.
     if (info_.softwareRasteriser && technique.prefilter != Prefilter::none) glFinish();
     clearVisibilities();
+    drawnTriangles_ = 0;
     for (std::size_t view = 0; view < views_.size(); ++view) {
         const MapSettings map = mapSettings(settings, view);
         if (map.fadeWeight < 1) {
@@ -137,8 +173,11 @@ void Renderer::drawShadows(const FrameSettings& settings, const Technique& techn
     }
     {
         const PassScope scope(Pass::depth, clock);
-        drawCasters(maps_[view].target, edge, view);
-        if (maps_[view].samples > 1) drawCasters(maps_[view].sampledTarget, edge, view);
+        const Map& map = maps_[view];
+        drawnTriangles_ += drawCasters(map.target, edge, shadows_[view], settings.drawOutside);
+        if (map.samples > 1)
+            drawnTriangles_ +=
+                drawCasters(map.sampledTarget, edge, shadows_[view], settings.drawOutside);
     }
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
@@ -150,8 +189,9 @@ void Renderer::drawShadows(const FrameSettings& settings, const Technique& techn
     drawLookup(technique, view, weight);
 }
 
-void Renderer::drawCasters(const Framebuffer& target, int edge, std::size_t view) const {
-    const bool lamp = views_.at(view).window.lampAt.has_value();
+std::size_t Renderer::drawCasters(const Framebuffer& target, int edge,
+                                  const f32::ShadowConstants& shadow, bool outside) const {
+    const bool lamp = shadow.scale.w > 0;
     clearDepths(target, edge);
     glBindFramebuffer(GL_FRAMEBUFFER, target.name());
     glViewport(0, 0, edge, edge);
@@ -160,9 +200,12 @@ void Renderer::drawCasters(const Framebuffer& target, int edge, std::size_t view
     if (!lamp) glEnable(GL_DEPTH_CLAMP);
     glUseProgram(lamp ? lampDepthProgram_.name() : depthProgram_.name());
     glBindVertexArray(geometry_.name());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indexCount_), GL_UNSIGNED_INT, nullptr);
+    const std::size_t drawn =
+        outside ? drawRuns(std::array{IndexRun{0, indexCount_}})
+                : drawRuns(runsWithin(pieces_, clipVolume(mapClip(shadow), !lamp, surfaces_)));
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
+    return drawn;
 }
 
 void Renderer::filterMap(const Technique& technique, std::size_t view,
@@ -189,7 +232,7 @@ void Renderer::forgetDepths() {
     for (const auto& counter : depthCounters_) counter->forget();
 }
 
-void Renderer::drawPrepass() {
+void Renderer::drawPrepass(bool outside) {
     glBindFramebuffer(GL_FRAMEBUFFER, prepassTarget_.name());
     glViewport(0, 0, widthPx_, heightPx_);
     glEnable(GL_DEPTH_TEST);
@@ -202,15 +245,17 @@ void Renderer::drawPrepass() {
     glEnable(GL_FRAMEBUFFER_SRGB);  // albedos
     glUseProgram(prepassProgram_.name());
     glBindVertexArray(geometry_.name());
+    const ConvexBody seen = outside ? ConvexBody() : seenVolume(view_, surfaces_);
     for (const DrawRange& range : ranges_) {
+        const std::vector<IndexRun> runs = runsWithin(range.pieces, seen);
+        if (runs.empty()) continue;
         const Material& material = range.material;
         const glm::vec4 albedo(material.albedo, material.gloss);
         const glm::vec4 second(material.second, material.periodM);
         glUniform4fv(0, 1, glm::value_ptr(albedo));
         glUniform4fv(1, 1, glm::value_ptr(second));
         glUniform1ui(2, static_cast<GLuint>(material.pattern));
-        glDrawElements(GL_TRIANGLES, range.indices, GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(range.firstIndex * sizeof(std::uint32_t)));
+        drawRuns(runs);
     }
     glDisable(GL_FRAMEBUFFER_SRGB);
     glDisable(GL_DEPTH_TEST);

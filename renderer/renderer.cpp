@@ -53,10 +53,12 @@ void Renderer::setScene(Scene scene) {
 void Renderer::uploadScene() {
     Mesh all;
     ranges_.clear();
+    pieces_.clear();
     for (const SceneObject& object : scene_.objects) {
-        ranges_.push_back({object.material, static_cast<GLsizei>(object.mesh.indices.size()),
-                           all.indices.size()});
+        const IndexRun run{all.indices.size(), object.mesh.indices.size()};
         all.append(object.mesh);
+        ranges_.push_back({object.material, piecesOf(all, run)});
+        pieces_.insert(pieces_.end(), ranges_.back().pieces.begin(), ranges_.back().pieces.end());
     }
     if (all.indices.empty())
         throw std::invalid_argument("scene \"" + scene_.name + "\" has no triangles");

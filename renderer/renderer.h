@@ -22,6 +22,7 @@
 #include "renderer/image.h"
 #include "renderer/light_views.h"
 #include "renderer/map_filter.h"
+#include "renderer/mesh_pieces.h"
 #include "renderer/pass_clock.h"
 #include "renderer/scene.h"
 #include "renderer/served_pixels.h"
@@ -52,6 +53,9 @@ struct FrameSettings {
     /// Filters the whole map, as it otherwise may not where nothing that is seen looks it up; the
     /// picture is the same.
     bool filterUnseen = false;
+    /// Draws the triangles too that lie outside a map or the view, as it otherwise does not; maps
+    /// and picture are the same.
+    bool drawOutside = false;
     int samplesPerPixelEdge = 1;  ///< viewport pixels along a screen pixel's edge, 1 .. 16
     /// While a change of N is faded, the visibility is fadeWeight times this map's and the rest
     /// that of a map with N = fadeFrom, drawn before it. 1: no fade, fadeFrom is not looked at.
@@ -136,8 +140,10 @@ class Renderer {
     /// Binds the last frame's uniform blocks for such a pass, those of one of lightViews().
     void bindConstants(std::size_t view = 0) const;
     /// The depths of the casters into the lower left corner of a target, `edge` texels wide, under
-    /// the shadow block that is bound, which is of a view or of a part of it.
-    void drawCasters(const Framebuffer& target, int edge, std::size_t view = 0) const;
+    /// the shadow block that is bound, which holds `shadow`: a view's or that of a part of it.
+    /// Returns how many triangles that took: those near the map, or with `outside` all.
+    std::size_t drawCasters(const Framebuffer& target, int edge, const f32::ShadowConstants& shadow,
+                            bool outside = false) const;
 
     ByteImage readLit();                               ///< sRGB codes, 3 channels
     FloatImage readVisibility(std::size_t light = 0);  ///< 1 lit
@@ -159,13 +165,14 @@ class Renderer {
 
     std::size_t mapBytes() const;     ///< of the last frame's map and what it was filtered in
     std::size_t targetBytes() const;  ///< of everything that has the viewport's size
-    std::size_t triangles() const;
+    std::size_t triangles() const;    ///< of the scene
+    /// That the last frame drew into its maps, a triangle once for each.
+    std::size_t drawnTriangles() const { return drawnTriangles_; }
 
   private:
     struct DrawRange {
         Material material;
-        GLsizei indices = 0;
-        std::size_t firstIndex = 0;
+        std::vector<MeshPiece> pieces;
     };
 
     void fitViews();
@@ -187,7 +194,7 @@ class Renderer {
     /// Enters the layers that the map asks for into the shadow block of a layered technique.
     void enterLayers(const Technique& technique, const ParameterValues& asked, std::size_t view);
     void forgetDepths();
-    void drawPrepass();
+    void drawPrepass(bool outside);
     void clearVisibilities();
     void drawLit();
 
@@ -206,8 +213,10 @@ class Renderer {
 
     Buffer vertices_, indices_;
     VertexArray geometry_, noGeometry_;
-    std::vector<DrawRange> ranges_;
+    std::vector<DrawRange> ranges_;  // one for each object
+    std::vector<MeshPiece> pieces_;  // of all of them
     std::size_t indexCount_ = 0;
+    std::size_t drawnTriangles_ = 0;
 
     Buffer viewBlock_, lookBlock_;
     std::vector<Buffer> shadowBlocks_;  // one for each view

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -236,6 +237,77 @@ TEST(CascadeFrame, ShowsTheShadowsOfOneMap) {
         tests::expectImagesAgree(std::string("cascades_") + name, three, one,
                                  {.most = 0.6, .often = ripple, .shareBeyondOften = 0.02});
     }
+}
+
+/// All maps of a frame, and what is seen.
+std::vector<std::vector<float>> mapsAndSurfaces(renderer::Renderer& frame,
+                                                const renderer::FrameSettings& settings) {
+    frame.render(settings);
+    std::vector<std::vector<float>> all;
+    for (std::size_t view = 0; view < frame.lightViews().size(); ++view)
+        all.push_back(frame.readShadowMap(view).values);
+    all.push_back(frame.readPositions().values);
+    all.push_back(frame.readVisibility(frame.lights() - 1).values);
+    return all;
+}
+
+// Bit for bit, from the scene's own camera and from within it. Several depths in a texel among
+// them.
+TEST(LampFrame, TrianglesOutsideAMapAreLeftOutAndChangeNothing) {
+    std::vector<renderer::Scene> scenes;
+#ifdef __SANITIZE_ADDRESS__
+    for (const char* name : {"city", "lamps"}) scenes.push_back(renderer::makeScene(name));
+#else
+    for (const renderer::SceneEntry& entry : renderer::builtInScenes())
+        scenes.push_back(renderer::makeScene(entry.name));
+#endif
+    scenes.push_back(renderer::makeScene("yard:cascades=3:lamps=2"));
+    scenes.push_back(ballScene({kPoint, kSpot}));
+    const Technique& vsm = renderer::findTechnique("vsm");
+    renderer::ParameterValues sampled = vsm.standardParameters();
+    setParameter(vsm, sampled, "map_samples", 4);
+    for (renderer::Scene& scene : scenes) {
+        renderer::Renderer frame(gl(), scene, 96, 54);
+        for (const float nearer : {1.0F, 0.25F}) {
+            renderer::OrbitCamera camera = scene.camera;
+            camera.distanceM *= nearer;
+            frame.setCamera(camera);
+            renderer::FrameSettings settings{
+                .technique = &vsm, .parameters = sampled, .resolution = 200, .radiusUv = 0.01F};
+            const auto spared = mapsAndSurfaces(frame, settings);
+            const std::size_t drawn = frame.drawnTriangles();
+            settings.drawOutside = true;
+            const auto all = mapsAndSurfaces(frame, settings);
+            EXPECT_EQ(spared, all) << scene.name << ", camera at " << nearer << " of its distance";
+            EXPECT_LE(drawn, frame.drawnTriangles()) << scene.name;
+            // The sun's map and the spot's hold all of them, a face of the cube a ball or two.
+            if (scene.name == "balls") {
+                EXPECT_LT(static_cast<double>(drawn),
+                          0.6 * static_cast<double>(frame.drawnTriangles()));
+            }
+        }
+    }
+}
+
+TEST(LampFrame, ACasterOnAnEdgeOfTheCubeIsInBothFacesMaps) {
+    renderer::Scene scene = ballScene({kPoint});
+    // The one that lies on the edge between the first and the fifth face alone.
+    scene.objects = {scene.objects.at(2)};
+    renderer::Renderer frame(gl(), std::move(scene), 96, 64);
+    const auto coveredTexels = [&](std::size_t face) {
+        const FloatImage map = frame.readShadowMap(1 + face);
+        return std::count_if(map.values.begin(), map.values.end(),
+                             [](float depth) { return depth < 1; });
+    };
+    frame.render({.technique = &renderer::findTechnique("hard"), .resolution = 256});
+    EXPECT_GT(coveredTexels(0), 1000);
+    EXPECT_NEAR(static_cast<double>(coveredTexels(0)) / static_cast<double>(coveredTexels(4)), 1,
+                0.02)
+        << "it lies as much in the one as in the other";
+    EXPECT_EQ(coveredTexels(1), 0);
+    // In the sun's map and two faces' wholly, and in no other.
+    EXPECT_GE(frame.drawnTriangles(), 2 * frame.triangles());
+    EXPECT_LE(frame.drawnTriangles(), 3 * frame.triangles());
 }
 
 TEST(LampFrame, MapsHaveSizesOfTheirOwn) {
