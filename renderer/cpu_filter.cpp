@@ -160,8 +160,8 @@ CpuMap<Real> cpuMap(const Technique& technique, MapView depths, const ConstantsO
         map.texels = std::move(out);
     };
     pass([&](const glm::ivec2& texel, int layer) {
-        return filter.mapTexel(casterDepth(depths, texel, constants),
-                               casterSlope(depths, texel, constants), layer, constants);
+        return filter.mapTexel(casterDepth(depths, texel, 0, constants),
+                               casterSlope(depths, texel, 0, constants), layer, constants);
     });
     if (technique.prefilter == Prefilter::mips) {
         addMips(map, mipLevels(constants), [&](const glm::vec<4, Real>& texel) {

@@ -56,6 +56,10 @@ bool isSeparable(Prefilter prefilter) {
            prefilter == Prefilter::minMaxMean;
 }
 
+ShaderDefine prefilterDefine(Prefilter prefilter) {
+    return {"PREFILTER", std::to_string(static_cast<int>(prefilter))};
+}
+
 GLuint parts(GLuint whole, GLuint size) {
     return (whole + size - 1) / size;
 }
@@ -93,7 +97,11 @@ const Program& MapFilter::convertProgram(const Technique& technique, bool sample
     Program& convert = convertPrograms_[{&technique, sampled, listed}];
     if (convert.name() == 0) {
         ShaderOptions options = inTiles(techniqueOptions(technique), listed);
-        if (sampled) options.defines.push_back({"SAMPLED", "1"});
+        if (sampled) {
+            options.defines.push_back({"SAMPLED", "1"});
+            options.defines.push_back(prefilterDefine(
+                isSeparable(technique.prefilter) ? technique.prefilter : Prefilter::mean));
+        }
         convert = makeComputeProgram(shaders_, "passes/map_texel.comp", options);
     }
     return convert;
@@ -106,8 +114,7 @@ const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip, 
         ShaderOptions options =
             inTiles({.defines = formatDefines(technique), .substitutions = {}}, listed);
         options.defines.push_back({"STRIP", std::to_string(strip)});
-        options.defines.push_back(
-            {"PREFILTER", std::to_string(static_cast<int>(technique.prefilter))});
+        options.defines.push_back(prefilterDefine(technique.prefilter));
         line = makeComputeProgram(shaders_, "passes/map_line.comp", options);
     }
     return line;

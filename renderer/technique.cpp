@@ -43,6 +43,17 @@ constexpr TechniqueParameter biasDepth(float standard) {
             .high = 0.1F,
             .standard = standard};
 }
+/// Of any map that is filtered: what a texel's depths come to is joined as the prefilter joins
+/// texels.
+constexpr TechniqueParameter kMapSamples{
+    .name = "map_samples",
+    .meaning =
+        "depths in a texel that are averaged, as many as the driver has: 4, or 8; 1 has one "
+        "map",
+    .low = 1,
+    .high = 16,
+    .standard = 1,
+    .whole = true};
 constexpr float kHalfRounding = 3.0F / 2048;  // 11 bits: a step is 2^-11 near 1
 constexpr float kSplitRounding = 3.0F / (1 << 20);
 
@@ -168,13 +179,7 @@ constexpr VarianceParameters varianceParameters(float depthBias, float leastVari
               .low = 0,
               .high = 1,
               .standard = 1},
-             {.name = "map_samples",
-              .meaning = "depths in a texel that are averaged, as many as the driver has: 4, or 8; "
-                         "1 has one map",
-              .low = 1,
-              .high = 16,
-              .standard = 1,
-              .whole = true}}};
+             kMapSamples}};
 }
 constexpr TechniqueParameter kLeastVariance = varianceParameters(0, 1e-6F).all[3];
 constexpr TechniqueParameter kBleeding = varianceParameters(0, 1e-6F).all[4];
@@ -194,13 +199,14 @@ constexpr TechniqueParameter kSampledVarianceParameters[] = {
      .low = 1,
      .high = 8,
      .standard = 3,
-     .whole = true}};
+     .whole = true},
+    kMapSamples};
 /// A box of any width over texels of even depth: on a slope its mean is off by
 /// up to f (1 - f) / (2 w) of a texel, w its width and f what w has beyond a
 /// whole number. A mip level's mean is exact.
 constexpr TechniqueParameter kBoxBiasTexels = biasTexels(1.0F / 8);
 constexpr TechniqueParameter kSummedVarianceParameters[] = {kBoxBiasTexels, kLeastVariance,
-                                                            kBleeding, kDerivative};
+                                                            kBleeding, kDerivative, kMapSamples};
 constexpr TechniqueParameter kMipVarianceParameters[] = {
     kBiasTexels,
     kLeastVariance,
@@ -212,17 +218,18 @@ constexpr TechniqueParameter kMipVarianceParameters[] = {
      .low = 1,
      .high = 16,
      .standard = 16,
-     .whole = true}};
+     .whole = true},
+    kMapSamples};
 constexpr Property kMipsDoNot[] = {Property::errorFallsWithN};
 constexpr std::string_view kMipsDoNotBecause =
     "the level of a kernel has texels as large as the kernel, whatever N";
 constexpr TechniqueParameter kVariancePenumbraParameters[] = {
-    kBoxBiasTexels, kLeastVariance, kBleeding, kDerivative, kPenumbraDistance};
+    kBoxBiasTexels, kLeastVariance, kBleeding, kDerivative, kPenumbraDistance, kMapSamples};
 constexpr Property kMipPenumbraDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
 
 /// esm.glsl.
 struct ExponentialParameters {
-    TechniqueParameter all[4];
+    TechniqueParameter all[5];
 };
 constexpr ExponentialParameters exponentialParameters(float depthBias) {
     return {{kBiasTexels,
@@ -232,7 +239,8 @@ constexpr ExponentialParameters exponentialParameters(float depthBias) {
               .meaning = "c of exp(c (z - d)), per depth range: light leaks within about 1/c",
               .low = 1,
               .high = 1000,
-              .standard = 80}}};
+              .standard = 80},
+             kMapSamples}};
 }
 constexpr ExponentialParameters kExponential32 = exponentialParameters(0);
 constexpr ExponentialParameters kExponential16 = exponentialParameters(kHalfRounding);
@@ -252,7 +260,7 @@ constexpr TechniqueParameter kLeastDeviation{
     .high = 0.1F,
     .standard = 1e-4F};
 constexpr TechniqueParameter kEvsm2Parameters[] = {kBiasTexels, kGaussian, kPositiveExponent,
-                                                   kLeastDeviation};
+                                                   kLeastDeviation, kMapSamples};
 constexpr TechniqueParameter kEvsm4Parameters[] = {kBiasTexels,
                                                    biasReaches(1),
                                                    kGaussian,
@@ -262,11 +270,12 @@ constexpr TechniqueParameter kEvsm4Parameters[] = {kBiasTexels,
                                                     .low = 1,
                                                     .high = 42,
                                                     .standard = 20},
-                                                   kLeastDeviation};
+                                                   kLeastDeviation,
+                                                   kMapSamples};
 
 /// msm.glsl and msm16.glsl.
 struct MomentParameters {
-    TechniqueParameter all[5];
+    TechniqueParameter all[6];
 };
 constexpr MomentParameters momentParameters(float depthBias, float momentBias) {
     return {{kBiasTexels,
@@ -277,7 +286,8 @@ constexpr MomentParameters momentParameters(float depthBias, float momentBias) {
               .meaning = "alpha: how far moments are moved towards possible ones",
               .low = 0,
               .high = 0.1F,
-              .standard = momentBias}}};
+              .standard = momentBias},
+             kMapSamples}};
 }
 constexpr float kMomentDarkening = 1.0F / 512;  // half an 8-bit level, of the moments' bias
 // Smaller ones leave noise where the kernel finds depths that are nearly one: at 3e-7 in 32 bits up
@@ -305,7 +315,8 @@ constexpr TechniqueParameter kConvolutionParameters[] = {
      .meaning = "factor of the series, which is 1/2 where a receiver is its own occluder",
      .low = 1,
      .high = 4,
-     .standard = 2}};
+     .standard = 2},
+    kMapSamples};
 constexpr Property kConvolutionDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
 
 constexpr TechniqueParameter depthLayers(float standard) {
@@ -344,14 +355,15 @@ constexpr TechniqueParameter kLayerParameters[] = {
      .meaning = "light bleeding reduction: visibility that becomes 0",
      .low = 0,
      .high = 0.95F,
-     .standard = 0}};
+     .standard = 0},
+    kMapSamples};
 
 struct PowerParameters {
-    TechniqueParameter all[6];
+    TechniqueParameter all[7];
 };
 constexpr PowerParameters powerParameters(float depthBias) {
     return {{kBiasTexels, biasReaches(1), biasDepth(depthBias), kGaussian, depthLayers(1),
-             kLayerDeviation}};
+             kLayerDeviation, kMapSamples}};
 }
 constexpr PowerParameters kPower32 = powerParameters(0);
 constexpr PowerParameters kPower16 = powerParameters(kHalfRounding);

@@ -100,8 +100,8 @@ struct Technique {
     /// Position in `parameters`, or absent.
     std::optional<std::size_t> parameterSlot(std::string_view parameter) const;
     int mapLayers(const ParameterValues& values) const;
-    /// Samples of depth in a texel whose stored values are averaged: its parameter "map_samples";
-    /// 1 without.
+    /// Samples of depth in a texel, whose stored values are joined as the prefilter joins texels:
+    /// its parameter "map_samples"; 1 without.
     int mapSamples(const ParameterValues& values) const;
 };
 

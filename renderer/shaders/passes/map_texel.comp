@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // From the depth of the casters to what the technique stores of it, guard band included. An invocation does eight texels
-// of a column, so that the depths of neighbours are read once.
+// of a column, so that the depths of neighbours are read once. SAMPLED: the map has several depths in a texel, whose
+// stored values are joined as the prefilter joins texels (PREFILTER: a Prefilter of technique.h).
+#ifdef SAMPLED
+#define DEPTH_SAMPLER sampler2DMS
+#endif
 #include "shared/filters.glsl"
 #include "technique"
 
@@ -13,12 +17,7 @@ layout(local_size_x = GROUP) in;
 ivec2 firstTexel() { return ivec2(gl_GlobalInvocationID.xy) * ivec2(1, 8); }
 #endif
 
-#ifdef SAMPLED
-layout(binding = 0) uniform sampler2DMS depthMap;
-layout(location = 2) uniform int samples;
-#else
-layout(binding = 0) uniform sampler2D depthMap;
-#endif
+layout(binding = 0) uniform DEPTH_SAMPLER depthMap;
 #if MAP_IS_SUMMED
 layout(binding = 0) writeonly uniform uimage2DArray stored;
 #define STORED_TEXEL unitsOf
@@ -27,30 +26,22 @@ layout(binding = 0) writeonly uniform image2DArray stored;
 #define STORED_TEXEL packedTexel
 #endif
 
-#ifdef SAMPLED
-// As casterDepth() and casterSlope() of shared/filtered_map.glsl, sample by sample: neighbours have theirs in the same
-// places.
-float depthOf(ivec2 texel, int index) {
-    ivec2 inside = texel - ivec2(int(shadow.prefilter.z));
-    ivec2 at = clamp(inside, ivec2(0), ivec2(int(shadow.map.x) - 1));
-    return at == inside ? casterOf(texelFetch(depthMap, at, index).x) : 1.0;
+vec4 valueOf(ivec2 texel, int index, int layer) {
+    return mapTexel(casterDepth(depthMap, texel, index, shadow), casterSlope(depthMap, texel, index, shadow), layer,
+                    shadow);
 }
 
-vec2 slopeOf(ivec2 texel, int index) {
-    float here = depthOf(texel, index);
-    return vec2(smallerOf(depthOf(texel + ivec2(1, 0), index) - here, here - depthOf(texel - ivec2(1, 0), index)),
-                smallerOf(depthOf(texel + ivec2(0, 1), index) - here, here - depthOf(texel - ivec2(0, 1), index)));
-}
+#ifdef SAMPLED
+layout(location = 2) uniform int samples;
 
 vec4 storedValue(ivec2 texel, int layer) {
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < samples; ++i) sum += mapTexel(depthOf(texel, i), slopeOf(texel, i), layer, shadow);
-    return sum / float(samples);
+    vec4 joined = emptyTaps(PREFILTER);
+    for (int i = 0; i < samples; ++i)
+        joined = joinedTaps(PREFILTER, joined, tapOf(PREFILTER, valueOf(texel, i, layer), 1.0));
+    return valueOfTaps(PREFILTER, joined, float(samples));
 }
 #else
-vec4 storedValue(ivec2 texel, int layer) {
-    return mapTexel(casterDepth(depthMap, texel, shadow), casterSlope(depthMap, texel, shadow), layer, shadow);
-}
+vec4 storedValue(ivec2 texel, int layer) { return valueOf(texel, 0, layer); }
 #endif
 
 void convert(ivec2 texel) {

@@ -12,27 +12,32 @@ SHARED_FUNCTION int filteredEdge(ShadowConstants shadow) {
 
 // --- From depth to what is stored ---
 
-// Depth of the caster in a texel of the filtered map.
-SHARED_FUNCTION real casterDepth(sampler2D depthMap, int2 texel, ShadowConstants shadow) {
+// A pass of the GPU that reads a map with several samples of a texel defines its type, sampler2DMS.
+#ifndef DEPTH_SAMPLER
+#define DEPTH_SAMPLER sampler2D
+#endif
+
+// Depth of the caster in a texel of the filtered map. `index` says which sample of the texel; 0 where it has one.
+SHARED_FUNCTION real casterDepth(DEPTH_SAMPLER depthMap, int2 texel, int index, ShadowConstants shadow) {
     int guard = int(shadow.prefilter.z);
     int2 inside = texel - int2(guard, guard);
     int last = int(shadow.map.x) - 1;
     int2 at = clamp(inside, int2(0, 0), int2(last, last));
     // Read before it is known to be inside: without a branch a driver sees that neighbours read the same texels.
-    real depth = casterOf(real(texelFetch(depthMap, at, 0).x));
+    real depth = casterOf(real(texelFetch(depthMap, at, index).x));
     return at == inside ? depth : real(1.0);
 }
 
 SHARED_FUNCTION real smallerOf(real a, real b) { return abs(a) < abs(b) ? a : b; }
 
-// Change of the caster's depth over one texel. The smaller of the differences to either side: a silhouette is not a
-// slope.
-SHARED_FUNCTION real2 casterSlope(sampler2D depthMap, int2 texel, ShadowConstants shadow) {
-    real here = casterDepth(depthMap, texel, shadow);
-    return real2(smallerOf(casterDepth(depthMap, texel + int2(1, 0), shadow) - here,
-                           here - casterDepth(depthMap, texel - int2(1, 0), shadow)),
-                 smallerOf(casterDepth(depthMap, texel + int2(0, 1), shadow) - here,
-                           here - casterDepth(depthMap, texel - int2(0, 1), shadow)));
+// Change of the caster's depth over one texel: a sample's to the neighbours' in the same place. The smaller of the
+// differences to either side: a silhouette is not a slope.
+SHARED_FUNCTION real2 casterSlope(DEPTH_SAMPLER depthMap, int2 texel, int index, ShadowConstants shadow) {
+    real here = casterDepth(depthMap, texel, index, shadow);
+    return real2(smallerOf(casterDepth(depthMap, texel + int2(1, 0), index, shadow) - here,
+                           here - casterDepth(depthMap, texel - int2(1, 0), index, shadow)),
+                 smallerOf(casterDepth(depthMap, texel + int2(0, 1), index, shadow) - here,
+                           here - casterDepth(depthMap, texel - int2(0, 1), index, shadow)));
 }
 
 // The hi/lo split of a format with 11 significant bits (Donnelly and Lauritzen 2006, section 5.3): two values in four
