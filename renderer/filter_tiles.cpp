@@ -8,6 +8,9 @@ namespace {
 /// map has tiles.
 constexpr GLuint kTilesAcross = 16;
 
+/// That every driver starts.
+constexpr std::size_t kMostRows = 65535;
+
 /// As DispatchIndirectCommand, with the number of tiles, which fill the last row in part.
 struct Command {
     GLuint groupsX = kTilesAcross, groupsY = 0, groupsZ = 1, tiles = 0;
@@ -44,6 +47,7 @@ void FilterTiles::prepare() {
 bool FilterTiles::costsMoreThanItSaves(const f32::ShadowConstants& shadow, int layers,
                                        const PixelRect& pixels, float spreadTexels) {
     if (2 * lookupReach(spreadTexels) + 1 > kTile) return true;
+    if (area(parts(filteredEdge(shadow), kTile)) > kMostRows * kTilesAcross) return true;
     // A kernel that reaches farther needs nearly everything around what is seen, and the search of
     // its surroundings takes as long.
     constexpr int kMostReach = 4;
@@ -89,7 +93,8 @@ void FilterTiles::find(const f32::ShadowConstants& shadow, int layers, const Vis
     glUseProgram(listsProgram_.name());
     glUniform2i(0, tilesEdge_, parts(kernelTaps(shadow), kTile));
     glDispatchCompute(static_cast<GLuint>(parts(tilesEdge_ * tilesEdge_, 32)), 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void FilterTiles::dispatch(Pass pass) const {

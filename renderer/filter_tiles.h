@@ -39,8 +39,9 @@ class FilterTiles {
     /// Compiles what find() needs; throws std::runtime_error where it does not compile.
     void prepare();
 
-    /// Whether less is left out than finding it costs, by the sizes alone. `spreadTexels`: between
-    /// a receiver's place on the map and the lookups around it.
+    /// Whether less is left out than finding it costs, by the sizes alone, or a list of tiles may
+    /// be longer than a driver takes. `spreadTexels`: between a receiver's place on the map and the
+    /// lookups around it.
     static bool costsMoreThanItSaves(const f32::ShadowConstants& shadow, int layers,
                                      const PixelRect& pixels, float spreadTexels);
 

@@ -103,6 +103,12 @@ ParameterValues parametersIn(const f32::ShadowConstants& shadow) {
     return values;
 }
 
+/// Mesa's llvmpipe runs a compute pass that reads what was drawn before that is rasterised, once
+/// another framebuffer is bound.
+void waitForRasteriser(const GlInfo& info) {
+    if (info.softwareRasteriser) glFinish();
+}
+
 void throwOnGlError() {
     const GLenum error = glGetError();
     if (error != GL_NO_ERROR)
@@ -140,9 +146,7 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
         const PassScope scope(Pass::prepass, clock);
         drawPrepass(settings.drawOutside);
     }
-    // Mesa's llvmpipe runs a compute pass that reads the prepass before that is rasterised, once
-    // another framebuffer is bound.
-    if (info_.softwareRasteriser && technique.prefilter != Prefilter::none) glFinish();
+    if (technique.prefilter != Prefilter::none) waitForRasteriser(info_);
     clearVisibilities();
     drawnTriangles_ = 0;
     for (std::size_t view = 0; view < views_.size(); ++view) {
@@ -179,6 +183,7 @@ void Renderer::drawShadows(const FrameSettings& settings, const Technique& techn
             drawnTriangles_ +=
                 drawCasters(map.sampledTarget, edge, shadows_[view], settings.drawOutside);
     }
+    if (maps_[view].samples > 1 && hasLayers(technique)) waitForRasteriser(info_);
     if (technique.prefilter != Prefilter::none) {
         const PassScope scope(Pass::prefilter, clock);
         enterLayers(technique, settings.parameters.value_or(technique.standardParameters()), view);

@@ -17,26 +17,28 @@ void checkUnit(const std::string& name, float value) {
     if (!(value >= 0 && value <= 1)) rejectSetting(name, std::to_string(value), "in [0, 1]");
 }
 
+void checkSize(const std::string& name, int resolution, const GlInfo& info) {
+    if (resolution < 1 || resolution > info.maxResolution)
+        rejectSetting(name, std::to_string(resolution),
+                      "in [1, " + std::to_string(info.maxResolution) +
+                          "], what the driver allows (" + info.renderer + ")");
+}
+
+/// `of`: where the map's settings stand.
+void checkMap(const std::string& of, const MapSettings& map, const GlInfo& info) {
+    checkSize(of + "resolution", map.resolution, info);
+    checkUnit(of + "radiusUv", map.radiusUv);
+    checkUnit(of + "minRadiusUv", map.minRadiusUv);
+    checkUnit(of + "fadeWeight", map.fadeWeight);
+    if (map.fadeWeight < 1) checkSize(of + "fadeFrom", map.fadeFrom, info);
+}
+
 }  // namespace
 
 void FrameSettings::validate(const GlInfo& info) const {
-    if (resolution < 1 || resolution > info.maxResolution)
-        rejectSetting("resolution", std::to_string(resolution),
-                      "in [1, " + std::to_string(info.maxResolution) +
-                          "], what the driver allows (" + info.renderer + ")");
-    checkUnit("radiusUv", radiusUv);
-    checkUnit("minRadiusUv", minRadiusUv);
-    checkUnit("fadeWeight", fadeWeight);
-    if (fadeWeight < 1 && (fadeFrom < 1 || fadeFrom > info.maxResolution))
-        rejectSetting("fadeFrom", std::to_string(fadeFrom),
-                      "in [1, " + std::to_string(info.maxResolution) + "]");
-    for (const MapSettings& map : maps)
-        FrameSettings{.resolution = map.resolution,
-                      .radiusUv = map.radiusUv,
-                      .minRadiusUv = map.minRadiusUv,
-                      .fadeWeight = map.fadeWeight,
-                      .fadeFrom = map.fadeFrom}
-            .validate(info);
+    checkMap("", {resolution, radiusUv, minRadiusUv, fadeWeight, fadeFrom}, info);
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        checkMap("maps[" + std::to_string(i) + "].", maps[i], info);
     if (samplesPerPixelEdge < 1 || samplesPerPixelEdge > 16)
         rejectSetting("samplesPerPixelEdge", std::to_string(samplesPerPixelEdge), "in [1, 16]");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/map_filter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/prefilter.h"
@@ -64,8 +65,10 @@ GLuint parts(GLuint whole, GLuint size) {
     return (whole + size - 1) / size;
 }
 
+/// What was stored can be read from here on, and what is read before is not stored over.
 void waitForTexels() {
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 std::size_t area(int edge) {
@@ -90,6 +93,15 @@ void MapFilter::prepare(const Technique& technique) {
         convertProgram(technique, false, true);
         for (const GLuint strip : {kShortStrip, kStrip})
             for (const bool listed : {false, true}) lineProgram(technique, strip, listed);
+    }
+}
+
+void MapFilter::prepareAs(const MapFilter& other) {
+    for (const auto& [key, program] : other.convertPrograms_) {
+        if (program.name() == 0) continue;  // did not compile
+        const auto& [technique, sampled, listed] = key;
+        prepare(*technique);
+        convertProgram(*technique, sampled, listed);
     }
 }
 
@@ -190,6 +202,7 @@ void MapFilter::run(const Technique& technique, const ParameterValues& parameter
         tiles_.find(shadow, layers_, *seen, spread);
     else
         tiles_.forget();
+    waitForTexels();  // another map's lookup may still read them
     const bool sampled = technique.mapSamples(parameters) > 1;
     glUseProgram(convertProgram(technique, sampled, tiles_.found()).name());
     if (sampled) {
@@ -262,20 +275,32 @@ void MapFilter::sumUp() {
 FilteredTexels MapFilter::read() const {
     FilteredTexels all{.edge = usedEdge_, .texels = {}, .sums = {}};
     const bool summed = prefilter_ == Prefilter::sums;
+    // GL counts the bytes of one read-back in 31 bits, which a large map has more of.
+    constexpr int kMostTexels = 1 << 26;
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     for (int level = 0; level < usedLevels_; ++level) {
         const int edge = usedEdge_ >> level;
-        std::vector<glm::vec4> texels(area(edge) * static_cast<std::size_t>(layers_));
-        std::vector<glm::uvec4> sums(summed ? texels.size() : 0);
-        glGetTextureSubImage(
-            textures_[0].name(), level, 0, 0, 0, edge, edge, layers_,
-            summed ? GL_RGBA_INTEGER : GL_RGBA, summed ? GL_UNSIGNED_INT : GL_FLOAT,
-            static_cast<GLsizei>(texels.size() * sizeof(glm::vec4)),
-            summed ? static_cast<void*>(sums.data()) : static_cast<void*>(texels.data()));
+        const std::size_t first = all.texels.size();
+        const std::size_t texels = area(edge) * static_cast<std::size_t>(layers_);
         if (summed)
-            all.sums = std::move(sums);
+            all.sums.resize(texels);
         else
-            all.texels.insert(all.texels.end(), texels.begin(), texels.end());
+            all.texels.resize(first + texels);
+        const int rows = std::clamp(kMostTexels / edge, 1, edge);
+        std::size_t done = 0;
+        for (int layer = 0; layer < layers_; ++layer)
+            for (int row = 0; row < edge; row += rows) {
+                const int height = std::min(rows, edge - row);
+                const std::size_t count =
+                    static_cast<std::size_t>(height) * static_cast<std::size_t>(edge);
+                glGetTextureSubImage(textures_[0].name(), level, 0, row, layer, edge, height, 1,
+                                     summed ? GL_RGBA_INTEGER : GL_RGBA,
+                                     summed ? GL_UNSIGNED_INT : GL_FLOAT,
+                                     static_cast<GLsizei>(count * sizeof(glm::vec4)),
+                                     summed ? static_cast<void*>(&all.sums[done])
+                                            : static_cast<void*>(&all.texels[first + done]));
+                done += count;
+            }
     }
     return all;
 }

@@ -33,6 +33,8 @@ class MapFilter {
     /// Compiles the technique's passes if they have not been; throws std::runtime_error where they
     /// do not compile.
     void prepare(const Technique& technique);
+    /// What another one has compiled; throws alike.
+    void prepareAs(const MapFilter& other);
 
     /// Filters the N x N depths in the corner of `depths`, which has several samples where the
     /// technique's parameters say so. `shadow` has to be bound as the shadow

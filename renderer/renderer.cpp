@@ -175,12 +175,12 @@ void Renderer::reload(const ShaderLibrary& shaders) {
                     {.defines = {{"MOST_LAMPS", std::to_string(kMostLamps)}}, .substitutions = {}});
     std::vector<Program> lookups(lookupPrograms_.size());
     MapFilter mapFilter(shaders);
+    mapFilter.prepareAs(mapFilter_);
     ShaderLibrary own = shaders;
     for (std::size_t row = 0; row < lookups.size(); ++row) {
         if (lookupPrograms_[row].name() == 0) continue;
         const Technique& technique = techniques()[row % techniques().size()];
         lookups[row] = makeLookupProgram(shaders, technique, row >= techniques().size());
-        mapFilter.prepare(technique);
     }
     for (const auto& counter : depthCounters_) counter->reload(shaders);
     // Nothing below throws.

@@ -56,7 +56,9 @@ PixelRect servedPixels(const LightView& view, const OrbitCamera& camera, const B
     const glm::dvec2 size(widthPx, heightPx);
     glm::dvec2 low = size;
     glm::dvec2 high(0);
-    for (const glm::dvec3& corner : cornersOf(body)) {
+    const std::vector<glm::dvec3> corners = cornersOf(body);
+    if (corners.empty()) return {};
+    for (const glm::dvec3& corner : corners) {
         const glm::dvec3 way = corner - eye;
         const glm::dvec2 place = 0.5 * size + glm::dvec2(glm::dot(way, right), glm::dot(way, up)) /
                                                   (pixel * glm::dot(way, forward));

@@ -334,6 +334,12 @@ TEST(LampFrame, MapsHaveSizesOfTheirOwn) {
         EXPECT_THAT(error.what(),
                     HasSubstr("maps is 1 long, must be one for each of the frame's 2"));
     }
+    try {
+        frame.render({.technique = disc, .maps = {{}, {.resolution = 0}}});
+        FAIL() << "a map has no texels";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), HasSubstr("maps[1].resolution is 0, must be in [1, "));
+    }
     EXPECT_THROW(frame.setCascades(9), std::invalid_argument);
     EXPECT_THROW(frame.setLamps({Lamp{.nearM = -1}}), std::invalid_argument);
     EXPECT_THROW(frame.setLamps(std::vector<Lamp>(renderer::kMostLamps + 1)),

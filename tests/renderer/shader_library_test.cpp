@@ -125,6 +125,28 @@ TEST(ShaderLibrary, ReloadedShadersAreTakenWhereTheyCompileAndTheLastGoodOnesSta
         EXPECT_TRUE(after[i] == 1 || after[i] <= 0.5F) << "half, or sky";
 }
 
+// What only several depths in a texel need is compiled when it is asked for, and again.
+TEST(ShaderLibrary, AReloadKeepsTheLastGoodPassesOfSampledMaps) {
+    const renderer::HeadlessContext context;
+    renderer::Renderer frame(context.info(), renderer::makeScene("yard"), 32, 18);
+    const renderer::Technique& vsm = renderer::findTechnique("vsm");
+    renderer::ParameterValues sampled = vsm.standardParameters();
+    setParameter(vsm, sampled, "map_samples", 4);
+    const auto visibilityOf = [&] {
+        frame.render({.technique = &vsm, .parameters = sampled, .resolution = 32});
+        return frame.readVisibility().values;
+    };
+    const std::string path = "passes/map_texel.comp";
+    std::string text = ShaderLibrary::embedded().text(path);
+    text.replace(text.find("float(samples)"), 14, "float(nothing)");
+    EXPECT_NO_THROW(frame.reload(withFile(path, text))) << "nobody has asked for it";
+    frame.reload(ShaderLibrary::embedded());
+    const auto before = visibilityOf();
+    EXPECT_THAT(messageOf([&] { frame.reload(withFile(path, text)); }),
+                HasSubstr("edited/passes/map_texel.comp:"));
+    EXPECT_EQ(visibilityOf(), before);
+}
+
 TEST(ShaderLibrary, AFolderIsNamedInWhatIsWrongWithItsFiles) {
     const tests::TemporaryFolder folder;
     std::filesystem::create_directory(folder.path() / "passes");
