@@ -40,8 +40,9 @@ struct Row {
     const renderer::Technique* technique;
     std::array<std::vector<double>, renderer::kPasses> passesMs;
     std::vector<double> sumsMs;
-    std::vector<double> wholeMs;  // prefilter of everything, seen or not
-    double share = 1;             // of the last map's tiles that are seen
+    std::vector<double> wholeDepthMs;  // with every triangle in every map
+    std::vector<double> wholeMs;       // prefilter of everything, seen or not
+    double share = 1;                  // of the last map's tiles that are seen
 
     double median(renderer::Pass pass) const {
         return quartilesOf(passesMs[static_cast<std::size_t>(pass)]).median;
@@ -70,8 +71,13 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
         if (technique.name == "pcf_disc" || technique.name == "vsm" ||
             (only.empty() ? technique.prefilter != renderer::Prefilter::none
                           : std::find(only.begin(), only.end(), technique.name) != only.end()))
-            rows.push_back({.technique = &technique, .passesMs = {}, .sumsMs = {}, .wholeMs = {}});
+            rows.push_back({.technique = &technique,
+                            .passesMs = {},
+                            .sumsMs = {},
+                            .wholeDepthMs = {},
+                            .wholeMs = {}});
     renderer::PassClock clock(info);
+    std::size_t drawn = 0;
     for (int round = -1; round < kRounds; ++round)  // the first warms up
         for (Row& row : rows) {
             const renderer::FrameSettings settings{.technique = row.technique,
@@ -84,10 +90,13 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
             row.share = frame.readFilteredShare();
             renderer::FrameSettings whole = settings;
             whole.filterUnseen = true;
+            whole.drawOutside = true;
+            drawn = frame.drawnTriangles();
             frame.render(whole, &clock);
-            const double wholeMs = clock.collectMs()[static_cast<std::size_t>(Pass::prefilter)];
+            const renderer::PassTimesMs wholeTimes = clock.collectMs();
             if (round < 0) continue;
-            row.wholeMs.push_back(wholeMs);
+            row.wholeDepthMs.push_back(wholeTimes[static_cast<std::size_t>(Pass::depth)]);
+            row.wholeMs.push_back(wholeTimes[static_cast<std::size_t>(Pass::prefilter)]);
             double sum = 0;
             for (const Pass pass : {Pass::depth, Pass::prefilter, Pass::lookup}) {
                 const auto i = static_cast<std::size_t>(pass);
@@ -105,18 +114,23 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
         screens += static_cast<double>(pixels.width) * pixels.height / (kWidthPx * kHeightPx);
     std::printf(
         "\n**%s**, %d x %d px, N = %d, radius %.5f of the map = %.1f "
-        "texels, %d rounds; %zu maps, looked up over %.2f screens\n\n"
-        "| technique | depth ms | prefilter ms | of it all ms | tiles seen | lookup ms | sum ms | "
+        "texels, %d rounds; %zu maps, looked up over %.2f screens; %zu of %zu "
+        "triangles drawn into them\n\n"
+        "| technique | depth ms | of all triangles ms | prefilter ms | of it all ms | tiles seen | "
+        "lookup ms "
+        "| sum ms | "
         "of pcf_disc | of vsm |\n"
-        "|---|---|---|---|---|---|---|---|---|\n",
+        "|---|---|---|---|---|---|---|---|---|---|\n",
         scene, kWidthPx, kHeightPx, kResolution, static_cast<double>(radius),
-        static_cast<double>(radius) * kResolution, kRounds, frame.lightViews().size(), screens);
+        static_cast<double>(radius) * kResolution, kRounds, frame.lightViews().size(), screens,
+        drawn, frame.drawnTriangles());
     for (const Row& row : rows)
-        std::printf("| %s | %.1f | %.1f | %.1f | %.0f %% | %.1f | %.1f | %s | %s |\n",
+        std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.0f %% | %.1f | %.1f | %s | %s |\n",
                     std::string(row.technique->name).c_str(), row.median(Pass::depth),
-                    row.median(Pass::prefilter), quartilesOf(row.wholeMs).median, 100 * row.share,
-                    row.median(Pass::lookup), quartilesOf(row.sumsMs).median,
-                    ratio(row, find("pcf_disc")).c_str(), ratio(row, find("vsm")).c_str());
+                    quartilesOf(row.wholeDepthMs).median, row.median(Pass::prefilter),
+                    quartilesOf(row.wholeMs).median, 100 * row.share, row.median(Pass::lookup),
+                    quartilesOf(row.sumsMs).median, ratio(row, find("pcf_disc")).c_str(),
+                    ratio(row, find("vsm")).c_str());
 }
 
 }  // namespace
