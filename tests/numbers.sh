@@ -117,9 +117,12 @@ headline_means() {
         $1 == "scene" { for (i = 1; i <= NF; ++i) at[$i] = i; next }
         $at["resolution_mode"] == "auto" {
             automatic[$2, $1] = $at["frame_ms"]
-            if ($at["rmse"] > worst[$2]) worst[$2] = $at["rmse"]
+            size[$2, $1] = $at["resolution"]
+            rmse[$2, $1] = $at["rmse"]
             next
         }
+        # A map finer than the reference is not wrong by what the two differ in.
+        $at["is_reference"] == 1 && size[$2, $1] <= $at["resolution"] && rmse[$2, $1] > worst[$2] { worst[$2] = rmse[$2, $1] }
         { key = $2 "\t" $at["resolution"]; logs[key] += log($at["frame_ms"] / automatic[$2, $1]); ++scenes[key] }
         END {
             for (key in logs) {
