@@ -247,11 +247,14 @@ constexpr ExponentialParameters kExponential16 = exponentialParameters(kHalfRoun
 constexpr Property kExponential16DoesNot[] = {Property::errorFallsWithN,
                                               Property::softnessIndependentOfN};
 
+/// Beyond this one the squares of a wide kernel's texels, summed before they are divided, are not
+/// finite in 32 bits: those of 6,000 texels are.
+constexpr float kMostWarp = 40;
 constexpr TechniqueParameter kPositiveExponent{
     .name = "positive_exponent",
     .meaning = "c of the warp exp(c (2 z - 1))",
     .low = 1,
-    .high = 42,  // the square of exp(c) times a kernel's worth of rounding fits 32 bits
+    .high = kMostWarp,
     .standard = 40};
 constexpr TechniqueParameter kLeastDeviation{
     .name = "least_deviation",
@@ -268,7 +271,7 @@ constexpr TechniqueParameter kEvsm4Parameters[] = {kBiasTexels,
                                                    {.name = "negative_exponent",
                                                     .meaning = "k of the warp -exp(-k (2 z - 1))",
                                                     .low = 1,
-                                                    .high = 42,
+                                                    .high = kMostWarp,
                                                     .standard = 20},
                                                    kLeastDeviation,
                                                    kMapSamples};

@@ -57,7 +57,8 @@ TEST(HardCases, TechniquesKeepToTheirFormulas) {
 }
 
 // exp(c z) is infinite in 32 bits from c = 88.73 on and in 16 from 11.1; kept as a logarithm it is
-// a depth. The squares of the warps are infinite from 44.4 on, and the table ends before that.
+// a depth. The squares of the warps are infinite from 44.4 on, their sums over a wide kernel before
+// that (below), and the table ends before either.
 TEST(HardCases, ExponentsAtAndBeyondOverflowKeepToTheFormula) {
     const Technique& esm = renderer::findTechnique("esm");
     for (const float exponent : {1.0F, 11.0F, 12.0F, 88.0F, 89.0F, 200.0F, 1000.0F})
@@ -83,6 +84,27 @@ TEST(HardCases, ExponentsAtAndBeyondOverflowKeepToTheFormula) {
         renderer::ParameterValues values = evsm.standardParameters();
         EXPECT_THROW(setParameter(evsm, values, "positive_exponent", highest + 1),
                      std::invalid_argument);
+    }
+}
+
+// The prefilter divides a sum by its weights at the end: at exp(84), 113 texels of a line are too
+// much for 32 bits.
+TEST(HardCases, SumsOfWarpsUnderWideKernelsStayFinite) {
+    for (const char* name : {"evsm2", "evsm4"}) {
+        const Technique& evsm = renderer::findTechnique(name);
+        renderer::ParameterValues parameters = evsm.standardParameters();
+        for (const char* exponent : {"positive_exponent", "negative_exponent"})
+            if (const auto slot = evsm.parameterSlot(exponent))
+                parameters[*slot] = evsm.parameters[*slot].high;
+        // The kernel is 121 texels wide; half the map is a caster, the rest is cleared.
+        const tests::DepthMap map(70, [](double u, double) { return u < 0.5 ? 0.3 : 1.0; });
+        const auto constants = tests::constantsFor(evsm, map.edge, 1, parameters);
+        const CpuTechnique<double> wide(evsm, map, constants, Storage::exact);
+        const CpuTechnique<float> stored(evsm, map, constants);
+        const auto receiver = tests::receiverAt(0.5, 0.5, 1);
+        EXPECT_LT(wide(receiver), 0.9) << name << ": the caster is seen";
+        // Rounding of the sums: 121 steps of 2^-24 at most in each pass.
+        EXPECT_NEAR(stored(receiver), wide(receiver), 1e-4) << name;
     }
 }
 
