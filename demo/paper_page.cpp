@@ -38,11 +38,13 @@ std::string processor() {
 std::string contextLine(const records::RunContext& context) {
     double load = 0;
     getloadavg(&load, 1);
+    const unsigned threads = std::thread::hardware_concurrency();
     return "Measured " + context.date + ", revision " + context.revision + ", " +
            context.buildType + ", " + context.compiler + "; " + context.glRenderer.value_or("") +
            ", " + context.glVersion.value_or("") + "; " + processor() + ", " +
-           std::to_string(std::thread::hardware_concurrency()) + " threads, load " +
-           formatted("%.1f", load) + " at the start.";
+           std::to_string(threads) + " threads, load " + formatted("%.1f", load) + " at the start" +
+           (load > threads ? "; other work ran beside it: the times are not to be relied on" : "") +
+           ".";
 }
 
 std::string valueText(PaperNumber what, double value) {

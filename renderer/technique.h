@@ -7,13 +7,17 @@
 //   shadow)
 //
 // which reads its parameters as PARAMETER_<name>. A technique whose map is filtered before the
-// lookup takes a sampler2DArray instead and also says what a texel stores:
+// lookup takes a sampler2DArray instead, one on sums a usampler2DArray, and also says what a texel
+// stores:
 //
 //   SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstants shadow)
 //
 // Under a separable kernel it looks up the receiver's place, or places within as many kernels side
 // by side as its parameter "samples" says (lookupSpreadTexels() in prefilter.h): what lies
 // elsewhere may not have been filtered.
+//
+// A technique whose kernel's radius varies has penumbraRadiusUv() too (cpu_penumbra.h), which is
+// negative where nothing is in the way.
 //
 // The file is compiled as GLSL and, by the build, as C++ (cpu_filter.h).
 #pragma once
