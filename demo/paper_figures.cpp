@@ -67,8 +67,9 @@ std::vector<PaperFigure> variance() {
                     {"VSM with mipmapping", "vsm_mip", {{"anisotropy", 1}}, 2048}},
          .setting = "The same yard from above and far away, a map of 2048 x 2048. Truth as before.",
          .finding = "Without mips a pixel reads four texels of the many that it covers; with them "
-                    "it reads their mean. As in the paper; the picture is small, so the gain shows "
-                    "in the number before it shows to the eye."},
+                    "it reads their mean. As in the paper: the fence's shadow breaks into crumbs "
+                    "without mips and is even stripes with them. Where the big sphere is in a "
+                    "post's shadow the wide levels let light through."},
         {.paper = "variance",
          .name = "variance-3",
          .title = "Fig. 3: 5x5 filters",
@@ -107,8 +108,9 @@ std::vector<PaperFigure> variance() {
          .setting = "Spheres whose shadows overlap, visibility times 4: white is a quarter of the "
                     "light or more. Umbra: where PCF on a map of 4096 x 4096 is dark all around.",
          .finding = "As in the paper: where a shadow's edge lies inside another shadow, variance "
-                    "maps let light through; PCF leaves none. The paper shows a car, ours has "
-                    "spheres as in Fig. 3 of Gumbau et al."},
+                    "maps let light through; PCF leaves none in the umbra; the white dots on the "
+                    "spheres lie at the border of what faces the light. The paper shows a car, "
+                    "ours has spheres as in Fig. 3 of Gumbau et al."},
         {.paper = "variance",
          .name = "variance-precision",
          .title = "Section 5.3: 16 against 32 bits",
@@ -170,7 +172,12 @@ std::vector<PaperFigure> powerCdf() {
              {{"VSM, 32 bits", "vsm", kPlain, 1024, 0, kCityRadiusM},
               {"VSM, 16 bits", "vsm16", kPlain16, 1024, 0, kCityRadiusM},
               {"ESM, 32 bits", "esm", {}, 1024, 0, kCityRadiusM},
-              {"ESM, 16 bits", "esm16", {{"bias_depth", 0}}, 1024, 0, kCityRadiusM},
+              {"ESM, 16 bits",
+               "esm16",
+               {{"bias_depth", 0}, {"exponent", 80}},
+               1024,
+               0,
+               kCityRadiusM},
               {"Power CDF, 32 bits", "power_cdf", {}, 1024, 0, kCityRadiusM},
               {"Power CDF, 16 bits", "power_cdf16", {{"bias_depth", 0}}, 1024, 0, kCityRadiusM}},
          .setting = "The city; in 16 bits with the constants of 32 bits. RMSE of each technique "
@@ -215,10 +222,13 @@ std::vector<PaperFigure> gradient() {
          .heightPx = 225,
          .truth = hard,
          .numbers = {litLight, litDark},
-         .panels = {{"GSM, circle of 8, gradient of the receiver", "gsm", {{"pattern", 1}}},
-                    {"GSM, circle of 8, gradient of the neighbours",
-                     "gsm",
-                     {{"gradient", 0}, {"pattern", 1}}}},
+         .panels =
+             {{"GSM, circle of 8, gradient of the receiver", "gsm", {{"pattern", 1}}, 1024, 0.5},
+              {"GSM, circle of 8, gradient of the neighbours",
+               "gsm",
+               {{"gradient", 0}, {"pattern", 1}},
+               1024,
+               0.5}},
          .setting = "Hills in grazing light, N = 1024, the paper's circle of eight at half a texel "
                     "and our bias of 1/32 of a texel's slope. Lit surfaces: those that a map of "
                     "4096 x 4096 says are lit all around.",
@@ -242,7 +252,8 @@ std::vector<PaperFigure> gradient() {
                     "gradient of the neighbours.",
          .finding =
              "The failure is the paper's: without the offset the kernel cuts into the receiver, "
-             "and lit planes keep little more than half of their light. With it they are lit."},
+             "and lit planes keep little more than half of their light. With it they are lit but "
+             "for dots along the plates' rims, where a neighbour's depth is another surface's."},
         {.paper = "gradient",
          .name = "gradient-5",
          .title = "Fig. 4.2.5: rings on a concave surface",

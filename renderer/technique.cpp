@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace renderer {
@@ -35,7 +36,7 @@ constexpr TechniqueParameter biasReaches(float standard) {
 }
 
 /// For what a format rounds off a depth in three passes. A GL may round towards zero: a whole step
-/// each.
+/// each. ESM stores depths in units of 1/c.
 constexpr TechniqueParameter biasDepth(float standard) {
     return {.name = "bias_depth",
             .meaning = "depth bias, as a share of the map's depth range",
@@ -147,7 +148,7 @@ constexpr TechniqueParameter kGradientParameters[] = {
      .standard = 1,
      .whole = true},
     {.name = "most_slope",
-     .meaning = "steepest slope, in depth ranges per extent of the map",
+     .meaning = "steepest slope of the map's, in depth ranges per extent of the map",
      .low = 0.1F,
      .high = 100,
      .standard = 4}};
@@ -231,7 +232,7 @@ constexpr Property kMipPenumbraDoesNot[] = {Property::monotoneInDepth, Property:
 struct ExponentialParameters {
     TechniqueParameter all[5];
 };
-constexpr ExponentialParameters exponentialParameters(float depthBias) {
+constexpr ExponentialParameters exponentialParameters(float depthBias, float exponent) {
     return {{kBiasTexels,
              biasDepth(depthBias),
              kGaussian,
@@ -239,23 +240,23 @@ constexpr ExponentialParameters exponentialParameters(float depthBias) {
               .meaning = "c of exp(c (z - d)), per depth range: light leaks within about 1/c",
               .low = 1,
               .high = 1000,
-              .standard = 80},
+              .standard = exponent},
              kMapSamples}};
 }
-constexpr ExponentialParameters kExponential32 = exponentialParameters(0);
-constexpr ExponentialParameters kExponential16 = exponentialParameters(kHalfRounding);
+constexpr ExponentialParameters kExponential32 = exponentialParameters(0, 80);
+/// Up to 64 a step is 1/32, which is 2^-11 of the depth range; beyond, twice as much.
+constexpr ExponentialParameters kExponential16 = exponentialParameters(kHalfRounding, 64);
 constexpr Property kExponential16DoesNot[] = {Property::errorFallsWithN,
                                               Property::softnessIndependentOfN};
 
 /// Beyond this one the squares of a wide kernel's texels, summed before they are divided, are not
 /// finite in 32 bits: those of 6,000 texels are.
 constexpr float kMostWarp = 40;
-constexpr TechniqueParameter kPositiveExponent{
-    .name = "positive_exponent",
-    .meaning = "c of the warp exp(c (2 z - 1))",
-    .low = 1,
-    .high = kMostWarp,
-    .standard = 40};
+constexpr TechniqueParameter kPositiveExponent{.name = "positive_exponent",
+                                               .meaning = "c of the warp exp(c (2 z - 1))",
+                                               .low = 1,
+                                               .high = kMostWarp,
+                                               .standard = 40};
 constexpr TechniqueParameter kLeastDeviation{
     .name = "least_deviation",
     .meaning = "least standard deviation of depth, as a share of the depth range",
@@ -530,7 +531,7 @@ constexpr Technique kTechniques[] = {
      .parameters = kExponential16.all,
      .doNotHold = kExponential16DoesNot,
      .doNotHoldBecause = "the depth bias for what 16 bits round off, times the exponent, lightens "
-                         "penumbrae by an eighth and narrows them, whatever N",
+                         "penumbrae by a tenth and narrows them, whatever N",
      .cost = kSeparableCost},
     {.name = "evsm2",
      .title = "Exponential variance, 2 moments",
@@ -755,6 +756,12 @@ std::string namesOf(const Rows& rows) {
     return names.empty() ? "none" : names;
 }
 
+std::string numberText(float number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", static_cast<double>(number));
+    return text;
+}
+
 }  // namespace
 
 const Technique& findTechnique(std::string_view name) {
@@ -776,9 +783,9 @@ void setParameter(const Technique& technique, ParameterValues& values, std::stri
     if (!inRange || (parameter.whole && value != std::floor(value)))
         throw std::invalid_argument(
             "parameter " + std::string(name) + " of technique " + std::string(technique.name) +
-            " is " + std::to_string(value) + ", must be " +
-            (parameter.whole ? "a whole number in [" : "in [") + std::to_string(parameter.low) +
-            ", " + std::to_string(parameter.high) + "]");
+            " is " + numberText(value) + ", must be " +
+            (parameter.whole ? "a whole number in [" : "in [") + numberText(parameter.low) + ", " +
+            numberText(parameter.high) + "]");
     values[*slot] = value;
 }
 

@@ -509,12 +509,16 @@ Wide gradientShadow(const Situation& s) {
     }
     Place g{s.receiver.depthGradient.x, s.receiver.depthGradient.y};
     const auto within = [&](Wide x) { return x > radius + texel && x < 1 - radius - texel; };
+    bool ofTheMap = true;
     if (s.technique.fileName() == "gsm_stored")
         g = storedSlope(s);
     else if (s.parameter("gradient") != 2 && within(s.receiver.uv.x) && within(s.receiver.uv.y))
         g = slopeOfTheMap(s, taps, radius);
+    else
+        ofTheMap = false;
     const Wide size = std::hypot(g.x, g.y);
-    const Wide cut = size > 0 ? std::min(size, s.parameter("most_slope")) / size : 0;
+    const Wide most = ofTheMap ? s.parameter("most_slope") : size;
+    const Wide cut = size > 0 ? std::min(size, most) / size : 0;
     g = {g.x * cut, g.y * cut};
     const Wide slope = size * cut * texel;
     const Wide depth = std::min(static_cast<Wide>(s.receiver.depth), static_cast<Wide>(1)) -

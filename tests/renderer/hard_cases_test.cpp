@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 
@@ -52,6 +53,10 @@ TEST(HardCases, TechniquesKeepToTheirFormulas) {
             const tests::HardError stored = worstError(technique, Precision::asStored, variant);
             EXPECT_LT(stored.worst, mostAsStored(technique))
                 << technique.name << " " << tests::toText(variant) << ": " << stored.where;
+            // Formats of 32 bits stored in halves promise numbers alone.
+            const tests::HardError half = worstError(technique, Precision::half, variant);
+            EXPECT_LE(half.worst, 1)
+                << technique.name << " " << tests::toText(variant) << ": " << half.where;
         }
     }
 }
@@ -71,6 +76,15 @@ TEST(HardCases, ExponentsAtAndBeyondOverflowKeepToTheFormula) {
                                     : 2e-6 + 4 * 0x1p-23 * static_cast<double>(exponent);
             EXPECT_LT(error.worst, most) << exponent << ": " << error.where;
         }
+    const Technique& esm16 = renderer::findTechnique("esm16");
+    for (const float exponent : {1.0F, 11.0F, 12.0F, 64.0F, 80.0F, 1000.0F}) {
+        EXPECT_LT(worstError(esm16, Precision::doubles, {{"exponent", exponent}}).worst, 1e-6);
+        // Half a step of 11 bits in each of three passes moves the logarithm.
+        const double moved = 1.5 * std::exp2(std::floor(std::log2(exponent)) - 10);
+        const tests::HardError error =
+            worstError(esm16, Precision::asStored, {{"exponent", exponent}});
+        EXPECT_LT(error.worst, 1 - std::exp(-moved) + 1e-3) << exponent << ": " << error.where;
+    }
     for (const char* name : {"evsm2", "evsm4"}) {
         const Technique& evsm = renderer::findTechnique(name);
         const std::size_t slot = evsm.parameterSlot("positive_exponent").value();

@@ -77,7 +77,8 @@ TEST(Technique, RefusesUnknownNamesAndValuesOutOfRange) {
     renderer::ParameterValues values = disc.standardParameters();
     EXPECT_EQ(message([&] { setParameter(disc, values, "bias", 1); }),
               "technique pcf_disc has no parameter \"bias\"; it has: bias_texels");
-    EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", 9); }), HasSubstr("is 9"));
+    EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", -1e-9F); }),
+                HasSubstr("is -1e-09, must be in [0, 4]"));
     EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", NAN); }), HasSubstr("nan"));
     setParameter(disc, values, "bias_texels", 2);
     EXPECT_EQ(values[0], 2.0F);

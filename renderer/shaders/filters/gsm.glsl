@@ -9,7 +9,8 @@
 // Parameters: bias, in slopes of a texel; gradient: 0 from the neighbours of the receiver's texel, 1 by regression over
 // all taps, 2 that of the receiver's own plane, which alone is right at silhouettes; pattern: 0 `taps` on Vogel's
 // spiral, 1 the paper's circle of eight, 2 sixteen of Poisson's; offsets: 0 leaves the receiver's depth where it is,
-// which darkens slopes by half (the paper's figure 4.2.3); most_slope: depth ranges per map's extent.
+// which darkens slopes by half (the paper's figure 4.2.3); most_slope: of the map's
+// gradients, depth ranges per map's extent.
 
 SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
     // At least the half texel of the paper's displacement.
@@ -19,11 +20,12 @@ SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, Sh
     int n = gradientTaps(pattern, int(PARAMETER_taps));
     real2 gradient = receiver.depthGradient;
     // Over the map's edge there is no surface that has a slope, only depth 1: the receiver's own gradient there.
-    bool slopesAround = liesInMap(receiver.uv, radius + shadow.map.y);
-    if (slopesAround && PARAMETER_gradient == real(0.0)) gradient = neighbourGradient(map, receiver.uv, shadow);
-    if (slopesAround && PARAMETER_gradient == real(1.0))
+    bool ofTheMap = PARAMETER_gradient != real(2.0) && liesInMap(receiver.uv, radius + shadow.map.y);
+    if (ofTheMap && PARAMETER_gradient == real(0.0)) gradient = neighbourGradient(map, receiver.uv, shadow);
+    if (ofTheMap && PARAMETER_gradient == real(1.0))
         gradient = regressedGradient(map, receiver.uv, radius, pattern, n, shadow);
-    gradient = limitedGradient(gradient, PARAMETER_most_slope);
+    // The receiver's plane has no silhouettes: its gradient is right however steep.
+    gradient = limitedGradient(gradient, ofTheMap ? PARAMETER_most_slope : kSteepestGradient);
     real slope = length(gradient) * shadow.map.y;
     real depth = min(receiver.depth, real(1.0)) - receiver.depthError - PARAMETER_bias * slope;
     real2 follow = PARAMETER_offsets != real(0.0) ? gradient : real2(0.0);

@@ -29,10 +29,13 @@ SHARED_FUNCTION real4 filteredDepth4(sampler2D map, real2 uv, real4 x, real4 y, 
                  filteredDepth(map, uv + real2(x.z, y.z), shadow), filteredDepth(map, uv + real2(x.w, y.w), shadow));
 }
 
+// Beyond this one the arithmetic has no numbers.
+const real kSteepestGradient = real(1e15);
+
 // Longer gradients are cut to `most`: a silhouette is not a slope. One whose length is no number is none.
 SHARED_FUNCTION real2 limitedGradient(real2 gradient, real most) {
     real size = length(gradient);
-    if (!(size > real(0.0) && size < real(1e15))) return real2(0.0);
+    if (!(size > real(0.0) && size < kSteepestGradient)) return real2(0.0);
     return gradient * (min(size, most) / size);
 }
 
