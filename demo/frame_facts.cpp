@@ -17,9 +17,6 @@ namespace {
 
 namespace rc = resolution_controller;
 
-// Submissions that together ask one pixel in four.
-constexpr int kSubmissions = renderer::DemandPass::kCellEdge * renderer::DemandPass::kCellEdge / 4;
-
 std::size_t coveredPixels(renderer::Renderer& frame) {
     const renderer::FloatImage places = mapPlaces(frame);
     std::size_t covered = 0;
@@ -42,7 +39,9 @@ class DemandCounter {
     rc::DemandHistogram of(const rc::DemandRule& rule) {
         const auto key = std::tuple(rule.c, rule.pixelBound, rule.contrastExponent);
         const auto [found, isNew] = counted_.try_emplace(key);
-        for (int i = 0; isNew && i < kSubmissions; ++i) {
+        // Every pixel, as the automatic size adds them up.
+        const int edge = renderer::DemandPass::cellEdge(frame_.widthPx(), frame_.heightPx());
+        for (int i = 0; isNew && i < edge * edge; ++i) {
             pass_.submit(frame_,
                          {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster});
             glFinish();

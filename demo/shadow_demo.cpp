@@ -27,6 +27,7 @@ struct Options {
     std::optional<int> compareWith, crossFade;
     std::optional<std::int64_t> budgetTexels;
     std::optional<float> gain, split;
+    std::optional<int> viewMap;
     demo::SlopeOptions slope;
     std::optional<std::filesystem::path> state, shaders;
     bool headless = false;
@@ -34,6 +35,7 @@ struct Options {
     int width = 1280, height = 720;
     int samples = 2;
     std::optional<std::filesystem::path> screenshot, stats, sequence, writeFrames, trace, replay;
+    std::optional<std::filesystem::path> windowPicture;
     int edge = 600;
     bool listTechniques = false, listScenes = false;
     std::vector<std::string> command;
@@ -110,6 +112,14 @@ demo::ViewerState stateOf(const Options& options) {
         inWindow(options) && !options.state && own && std::filesystem::exists(*own)) {
         try {
             state = demo::readViewerState(*own);
+            if (state.slopeFile && !options.slope.file &&
+                !std::filesystem::exists(*state.slopeFile)) {
+                std::fprintf(stderr,
+                             "shadow_demo: note: %s, the slope of the last time, is not there; "
+                             "the published one is in use\n",
+                             state.slopeFile->c_str());
+                state.slopeFile.reset();
+            }
         } catch (const std::runtime_error& error) {
             // Nobody asked for this file.
             std::fprintf(stderr, "shadow_demo: note: %s; beginning anew\n", error.what());
@@ -125,6 +135,7 @@ demo::ViewerState stateOf(const Options& options) {
         state.radiusM = options.radiusM;
         state.radiusUv = options.radiusUv;
     }
+    if (options.slope.file) state.slopeFile = options.slope.file;
     if (options.slope.detection) state.audience.detection = *options.slope.detection;
     if (options.slope.people) state.audience.people = *options.slope.people;
     state.percentile = options.percentile.value_or(state.percentile);
@@ -133,6 +144,7 @@ demo::ViewerState stateOf(const Options& options) {
     if (options.view) state.view = demo::parseView(*options.view, "--view");
     if (options.path) state.path = demo::parsePath(*options.path, "--path");
     state.compareWith = options.compareWith.value_or(state.compareWith);
+    state.viewMap = options.viewMap.value_or(state.viewMap);
     state.gain = options.gain.value_or(state.gain);
     state.splitAt = options.split.value_or(state.splitAt);
     return state;
@@ -217,8 +229,7 @@ void writeSequence(const Options& options, demo::Viewer& viewer) {
         demo::ViewerState state = viewer.state();
         state.pathPlace = static_cast<double>(i) / frames;
         viewer.show(state);
-        viewer.step();
-        glFinish();  // the next frame's size has this one's demand, on any machine
+        viewer.settle();  // pictures are farther apart than the frames of a view in motion
         char name[32];
         std::snprintf(name, sizeof name, "frame-%04d.png", i + 1);
         demo::writePng(*options.sequence / name, viewer.picture(options.samples));
@@ -262,13 +273,15 @@ void demonstrate(const Options& options) {
                                     ", must be 1 to 8");
     if (options.sequence && !options.headless)
         throw std::invalid_argument("--sequence needs --headless");
+    if (options.windowPicture && (options.headless || !options.frames))
+        throw std::invalid_argument("--window-picture needs a window and --frames");
     if (options.edge < 16 || options.edge > 4096)
         throw std::invalid_argument("--edge is " + std::to_string(options.edge) +
                                     ", must be 16 to 4096");
     const demo::ViewerState state = stateOf(options);
     if (options.writeFrames) return writeStudyFrames(options, state);
-    if (options.slope.file)  // of the published default the stats say as much
-        for (const std::string& note : demo::loadSlope(options.slope.file, state.audience).notes)
+    if (state.slopeFile)  // of the published default the stats say as much
+        for (const std::string& note : demo::loadSlope(state.slopeFile, state.audience).notes)
             std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
 
     const renderer::ShaderLibrary shaders =
@@ -276,8 +289,7 @@ void demonstrate(const Options& options) {
                         : renderer::ShaderLibrary::embedded();
     if (options.headless) {
         const renderer::HeadlessContext context;
-        demo::Viewer viewer(context.info(), state, options.slope.file, options.width,
-                            options.height, shaders);
+        demo::Viewer viewer(context.info(), state, options.width, options.height, shaders);
         if (options.trace) viewer.run().startTrace(kTraceBytes);
         const int settlingFrames = viewer.settle();
         if (options.sequence)
@@ -289,12 +301,12 @@ void demonstrate(const Options& options) {
         return;
     }
     renderer::Window window("shadow_demo", options.width, options.height);
-    demo::Viewer viewer(window.info(), state, options.slope.file, options.width, options.height,
-                        shaders);
+    demo::Viewer viewer(window.info(), state, options.width, options.height, shaders);
     if (options.trace) viewer.run().startTrace(kTraceBytes);
     showViewer(window, viewer,
                {.frames = options.frames.value_or(0),
                 .pictureFolder = ".",
+                .windowPicture = options.windowPicture,
                 .shaderFolder = options.shaders});
     writeTrace(options, viewer);
     if (options.stats || options.screenshot) {
@@ -340,7 +352,7 @@ int main(int argc, char** argv) {
         ->excludes(radius);
     demo::addSlopeOptions(app, options.slope);
     app.add_option("--percentile", options.percentile,
-                   "share of the points in penumbra whose demand the automatic size meets, 0.5 to "
+                   "share of the shadows' edges whose demand the automatic size meets, 0.5 to "
                    "1; default: 0.98");
     app.add_option("--cross-fade", options.crossFade,
                    "frames over which a change of the automatic size is faded; default: 8");
@@ -352,6 +364,9 @@ int main(int argc, char** argv) {
                    "picture, split, difference, demand, penumbra or texels; default: picture");
     app.add_option("--compare", options.compareWith,
                    "N of the other frame in split and difference; default: 4096");
+    app.add_option("--view-map", options.viewMap,
+                   "which of the frame's maps difference, demand, penumbra and texels are of, in "
+                   "the order in which --stats names them, from 1; default: 1");
     app.add_option("--gain", options.gain, "of the difference, 1 to 64; default: 4");
     app.add_option("--split", options.split, "place of the line, 0 to 1; default: 0.5");
     app.add_option("--path", options.path, "what goes round: still, camera or sun");
@@ -369,6 +384,8 @@ int main(int argc, char** argv) {
     app.add_option("--width", options.width, "viewport width in px")->capture_default_str();
     app.add_option("--height", options.height, "viewport height in px")->capture_default_str();
     app.add_option("--screenshot", options.screenshot, "PNG file to write at the end");
+    app.add_option("--window-picture", options.windowPicture,
+                   "PNG file of the window with its panel, taken in the last of --frames");
     app.add_option("--sequence", options.sequence,
                    "headless: folder for --frames pictures of --path once round");
     app.add_option("--samples", options.samples, "samples along a pixel's edge in the screenshot")

@@ -112,19 +112,21 @@ void ShadowRun::change(const Settings& settings) {
     }
     next.validate(info_);
     const rc::Settings sizing = sizingOf(settings, info_);
-    if (settings.technique != nullptr) demand_.prepare(*settings.technique, gpuRule(sizing));
-    if (const std::string problem = controller_.reconfigure(sizing); !problem.empty())
+    if (const std::string problem = rc::validate(sizing); !problem.empty())
         throw std::invalid_argument(problem);
+    if (settings.technique != nullptr) demand_.prepare(*settings.technique, gpuRule(sizing));
+    controller_.reconfigure(sizing);
     if (lights_)
         for (std::size_t map = 0; map < lights_->count(); ++map) {
             if (lights_->light(map).settings() == controller_.settings()) continue;
             lights_->reconfigure(map, controller_.settings());
             if (trace_) trace_->reconfigured(map, controller_.settings());
         }
-    // The last frames asked by other radii, or of another map.
-    if (settings.technique != settings_.technique || settings.parameters != settings_.parameters ||
-        settings.radiusUv != settings_.radiusUv || settings.slope != settings_.slope)
-        for (rc::RecentDemand& recent : recent_) recent.clear();
+    // What was asked by other rules, or while nothing followed it. Not for another radius: the
+    // map's extent, and with it radiusUv, changes with every step of the sun.
+    if (settings.technique != settings_.technique || settings.slope != settings_.slope ||
+        settings.resolution.has_value() != settings_.resolution.has_value())
+        forgetDemand();
     settings_ = settings;
     frameSettings_ = next;
     if (settings.resolution)
@@ -160,7 +162,11 @@ void ShadowRun::step(renderer::PassClock* clock, bool cut) {
 
 void ShadowRun::draw(renderer::PassClock* clock, View view) {
     const std::size_t maps = frame_.lightViews().size();
-    if (view == View::another) forgetDemand();
+    if (view == View::another) {
+        forgetDemand();
+        detail_.forget();
+        hurriedTiles_ = renderer::DetailProbe::kTiles * maps;
+    }
     fitRecent();
     frameSettings_.maps.clear();
     budget_.reset();
@@ -254,13 +260,17 @@ void ShadowRun::chooseTogether(View view) {
 
 void ShadowRun::ask(renderer::PassClock* clock) {
     if (clock != nullptr) clock->begin(renderer::Pass::demand);
-    if (detailOf_ != frame_.scene().name) {
+    if (detailOf_ != frame_.scene().source) {
         detail_.forget();
         forgetDemand();
-        detailOf_ = frame_.scene().name;
+        detailOf_ = frame_.scene().source;
     }
     const std::size_t maps = frame_.lightViews().size();
-    if (framesToDetail_-- <= 0) {
+    if (hurriedTiles_ > 0) {
+        --hurriedTiles_;
+        framesToDetail_ = 0;
+    }
+    if (settings_.sizing.texelsPerCaster > 0 && framesToDetail_-- <= 0) {
         detail_.submit(frame_, demandRule(), detailTurn_++ % maps);
         framesToDetail_ = static_cast<int>(std::max<std::size_t>(kFramesPerTile / maps, 1)) - 1;
     }
@@ -286,7 +296,10 @@ void ShadowRun::forgetDemand() {
 void ShadowRun::fitRecent() {
     const int edge = renderer::DemandPass::cellEdge(frame_.widthPx(), frame_.heightPx());
     const std::size_t maps = frame_.lightViews().size();
-    if (recent_.size() == maps && recent_.front().frames() == edge * edge) return;
+    const glm::ivec2 size(frame_.widthPx(), frame_.heightPx());
+    if (recent_.size() == maps && askedPx_ == size) return;
+    demand_.forget();  // other pixels, or other maps
+    askedPx_ = size;
     recent_.assign(maps, rc::RecentDemand(edge * edge));
 }
 
@@ -295,6 +308,7 @@ int ShadowRun::settle() {
     if (settings_.resolution) return 1;
     for (std::size_t map = 0; map < chosen_.size(); ++map)
         detail_.submitAll(frame_, demandRule(), map);
+    hurriedTiles_ = 0;
     const auto asksForNothing = [&] {
         return std::ranges::all_of(chosen_, [](const auto& map) { return map.need == 0; });
     };
@@ -307,8 +321,10 @@ int ShadowRun::settle() {
         askTheRest();
         glFinish();  // so that every frame has the demand of the one before, on any machine
         draw(nullptr, frames < kUnseenFrames ? View::sameUnseen : View::goesOn);
-        const bool same = std::ranges::equal(chosen_, before, {}, &ChosenResolution::resolution,
-                                             &ChosenResolution::resolution);
+        const bool same =
+            std::ranges::equal(chosen_, before, {}, &ChosenResolution::resolution,
+                               &ChosenResolution::resolution) &&
+            std::ranges::all_of(chosen_, [](const auto& map) { return map.fadeWeight == 1; });
         quiet = same && !asksForNothing() ? quiet + 1 : 0;
         if (asksForNothing() && frames > 2) break;  // nothing to go by in this view
     }

@@ -144,7 +144,9 @@ class ShadowRun {
     renderer::DemandPass demand_;
     renderer::DetailProbe detail_;
     std::vector<resolution_controller::RecentDemand> recent_;  // one for each map
-    std::string detailOf_;  // the scene that the probe looked at
+    glm::ivec2 askedPx_{0};                                    // the frame that they are of
+    std::string detailOf_;          // source of the scene that the probe looked at
+    std::size_t hurriedTiles_ = 0;  // still to be drawn of a new view, one in every frame
     int framesToDetail_ = 0;
     std::size_t detailTurn_ = 0;
     /// In place of controller_ where there are several maps, a budget or a trace.

@@ -32,11 +32,9 @@ Softness fittedSoftness(renderer::Renderer& frame, const ViewerState& state) {
 
 }  // namespace
 
-Viewer::Viewer(const renderer::GlInfo& info, const ViewerState& state,
-               std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx,
+Viewer::Viewer(const renderer::GlInfo& info, const ViewerState& state, int widthPx, int heightPx,
                const renderer::ShaderLibrary& shaders)
     : info_(info),
-      slopeFile_(std::move(slopeFile)),
       state_(checked(state)),
       frame_(info, renderer::openScene(state.scene), widthPx, heightPx, shaders),
       view_(shaders, kDemandGlsl) {
@@ -76,17 +74,20 @@ void Viewer::useSlope(const std::optional<std::filesystem::path>& file) {
     LoadedSlope last = std::exchange(slope_, loadSlope(file, state_.audience));
     try {
         run_->change(settingsOf(state_, state_.resolution));
+        view_.prepare(renderer::findTechnique(state_.technique), run_->demandRule());
     } catch (const std::exception&) {
         slope_ = std::move(last);
+        run_->change(settingsOf(state_, state_.resolution));
         throw;
     }
-    slopeFile_ = file;
+    state_.slopeFile = file;
+    slopeFor_ = {file, state_.audience};
 }
 
 void Viewer::apply(const ViewerState& state) {
-    if (slopeFor_ != state.audience) {
-        slope_ = loadSlope(slopeFile_, state.audience);
-        slopeFor_ = state.audience;
+    if (const std::pair wanted{state.slopeFile, state.audience}; slopeFor_ != wanted) {
+        slope_ = loadSlope(state.slopeFile, state.audience);
+        slopeFor_ = wanted;
     }
     if (state.scene != frame_.scene().source) {
         renderer::Scene scene = renderer::openScene(state.scene);
@@ -150,11 +151,13 @@ void Viewer::drawOther() {
 void Viewer::drawView() {
     if (state_.view == renderer::View::picture) return;
     if (compares(state_.view)) drawOther();
+    const std::size_t maps = frame_.lightViews().size();
     view_.draw(frame_, compares(state_.view) ? otherFrame_.get() : nullptr,
                {.view = state_.view,
                 .splitAt = state_.splitAt,
                 .gain = state_.gain,
-                .rule = run_->demandRule()});
+                .rule = run_->demandRule(),
+                .map = std::min(static_cast<std::size_t>(state_.viewMap), maps) - 1});
 }
 
 unsigned Viewer::framebuffer() const {

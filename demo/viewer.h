@@ -2,7 +2,7 @@
 // Draws what a ViewerState says, with or without a window: the frame at the size that the state
 // asks for, a second one where the view compares, and the view over both.
 //
-//   demo::Viewer viewer(info, state, slopeFile, 1280, 720);
+//   demo::Viewer viewer(info, state, 1280, 720);
 //   viewer.settle();  or, every frame:  viewer.show(state); viewer.step();
 //   window.present(viewer.framebuffer(), ...);  or  writePng(file, viewer.picture(2));
 #pragma once
@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "demo/viewer_state.h"
 
@@ -19,18 +20,18 @@ class Viewer {
   public:
     /// Throws std::invalid_argument for a state that is not usable, what loadSlope() throws, and
     /// what Renderer throws.
-    Viewer(const renderer::GlInfo& info, const ViewerState& state,
-           std::optional<std::filesystem::path> slopeFile, int widthPx, int heightPx,
+    Viewer(const renderer::GlInfo& info, const ViewerState& state, int widthPx, int heightPx,
            const renderer::ShaderLibrary& shaders = renderer::ShaderLibrary::embedded());
 
-    /// From the next frame on. Throws std::invalid_argument, and std::runtime_error where the
-    /// technique's shaders do not compile, and then the state stays as it was.
+    /// From the next frame on. Throws std::invalid_argument, what loadSlope() throws, and
+    /// std::runtime_error where the technique's shaders do not compile, and then the state stays as
+    /// it was.
     void show(const ViewerState& state);
     /// Takes these shaders for picture, view and demand from the next frame on. Throws
     /// std::runtime_error where one does not compile, and then the last good ones stay.
     void reload(const renderer::ShaderLibrary& shaders);
-    /// Sizes maps by this slope.json, or by the published slope, from the next frame on. Throws
-    /// what loadSlope() throws, and then the slope stays.
+    /// Sizes maps by this slope.json, read again, or by the published slope, from the next frame
+    /// on. Throws what loadSlope() throws, and then the slope stays.
     void useSlope(const std::optional<std::filesystem::path>& file);
     void resize(int widthPx, int heightPx);
 
@@ -59,10 +60,11 @@ class Viewer {
     void drawView();
 
     renderer::GlInfo info_;
-    std::optional<std::filesystem::path> slopeFile_;
     ViewerState state_;
     LoadedSlope slope_;
-    std::optional<resolution_controller::Audience> slopeFor_;
+    /// What slope_ was read for: file and audience.
+    std::optional<std::pair<std::optional<std::filesystem::path>, resolution_controller::Audience>>
+        slopeFor_;
     Softness softness_;
     renderer::OrbitCamera sceneCamera_;
     renderer::Sun sceneSun_;

@@ -146,7 +146,7 @@ void drawSize(const Viewer& viewer, const ChosenResolution& chosen, ViewerState&
     if (viewer.run().maps().size() == 1) drawChoice(chosen);
     if (chosen.automatic) {
         auto met = static_cast<float>(100 * state.percentile);
-        if (ImGui::SliderFloat("% of points met", &met, 50, 100, "%.1f",
+        if (ImGui::SliderFloat("% of edges met", &met, 50, 100, "%.1f",
                                ImGuiSliderFlags_AlwaysClamp))
             state.percentile = static_cast<double>(met) / 100;
         ImGui::SliderInt("fade (frames)", &state.crossFadeFrames, 0, 120, "%d",
@@ -174,11 +174,11 @@ void drawAudience(const Viewer& viewer, PanelTexts& texts, PanelRequest& request
     auto percent =
         static_cast<float>(100 * (state.audience.detection > 0 ? state.audience.detection
                                                                : viewer.slope().slope.criterion));
-    if (ImGui::SliderFloat("seen in % of looks", &percent, 1, 90, "%.0f",
+    if (ImGui::SliderFloat("seen in at most % of looks", &percent, 1, 90, "%.0f",
                            ImGuiSliderFlags_AlwaysClamp))
         state.audience.detection = static_cast<double>(percent) / 100;
     auto people = static_cast<float>(100 * state.audience.people);
-    if (ImGui::SliderFloat("by % of people or fewer", &people, 50, 99, "%.0f",
+    if (ImGui::SliderFloat("for % of people", &people, 50, 99, "%.0f",
                            ImGuiSliderFlags_AlwaysClamp))
         state.audience.people = static_cast<double>(people) / 100;
     if (state.audience != resolution_controller::kAsMeasured &&
@@ -225,8 +225,14 @@ void drawView(const Viewer& viewer, ViewerState& state) {
             static_cast<double>(renderer::ViewPass::kMostDemand));
     if (state.view == View::penumbra)
         ImGui::TextWrapped("visibility in penumbra: violet 0, green .5, yellow 1");
-    if (viewer.run().maps().size() > 1 && state.view != View::picture && state.view != View::split)
-        ImGui::TextWrapped("Of the sun's first map alone.");
+    const std::vector<std::string> maps = mapNames(viewer.frame().lightViews());
+    if (maps.size() == 1 || state.view == View::picture || state.view == View::split) return;
+    const std::size_t shown = std::min(static_cast<std::size_t>(state.viewMap), maps.size()) - 1;
+    if (!ImGui::BeginCombo("of map", maps[shown].c_str())) return;
+    for (std::size_t map = 0; map < maps.size(); ++map)
+        if (ImGui::Selectable(maps[map].c_str(), map == shown))
+            state.viewMap = static_cast<int>(map) + 1;
+    ImGui::EndCombo();
 }
 
 void drawLight(const Viewer& viewer, ViewerState& state) {
@@ -293,7 +299,8 @@ void drawPlots(const FrameHistory& history, bool several, ViewerState& state) {
     else
         plot("map size", "%.0f", [](const auto& entry) { return entry.resolution; });
     plot("frame", "%.1f ms", [](const auto& entry) { return entry.frameMs; });
-    plot("artifact ratio", "%.2f", [](const auto& entry) { return entry.artifactRatio; });
+    if (history.entries.back().artifactRatio > 0)
+        plot("artifact ratio", "%.2f", [](const auto& entry) { return entry.artifactRatio; });
     ImGui::Checkbox("time every pass", &state.timePasses);
     if (!state.timePasses) return;
     drawPasses(history, width);

@@ -112,9 +112,10 @@ std::string validate(const ViewerState& state) {
     } catch (const std::invalid_argument& error) {
         return error.what();
     }
-    // How large they may be, the driver says.
-    for (const auto& [field, size] : {std::pair{"resolution", state.resolution.value_or(1)},
-                                      std::pair{"compare_with", state.compareWith}})
+    // How large they may be, driver and scene say.
+    for (const auto& [field, size] :
+         {std::pair{"resolution", state.resolution.value_or(1)},
+          std::pair{"compare_with", state.compareWith}, std::pair{"view_map", state.viewMap}})
         if (size < 1)
             return std::string(field) + ": " + std::to_string(size) + ": must be at least 1";
     if (!(state.gain >= kLeastGain && state.gain <= kMostGain))
@@ -159,6 +160,7 @@ ViewerState readViewerState(const std::filesystem::path& file) {
     state.compareWith = fields.integer("compare_with");
     state.radiusM = fields.optionalNumber("radius_m");
     state.radiusUv = fields.optionalNumber("radius_uv");
+    if (const auto slope = fields.optionalText("slope")) state.slopeFile = *slope;
     state.audience.detection = fields.number("detection");
     state.audience.people = fields.number("people");
     // Files of before these settings have none.
@@ -169,6 +171,7 @@ ViewerState readViewerState(const std::filesystem::path& file) {
         state.budgetTexels = static_cast<std::int64_t>(
             std::min<std::uint64_t>(*texels, std::numeric_limits<std::int64_t>::max()));
     state.view = fields.word("view", viewWords());
+    state.viewMap = fields.optionalInteger("view_map").value_or(state.viewMap);
     state.splitAt = static_cast<float>(fields.number("split_at"));
     state.gain = static_cast<float>(fields.number("gain"));
     state.cameraYawDeg = optionalFloat(fields, "camera_yaw_deg");
@@ -189,31 +192,35 @@ ViewerState readViewerState(const std::filesystem::path& file) {
 void writeViewerState(const std::filesystem::path& file, const ViewerState& state) {
     const auto path = std::find_if(kPathWords.begin(), kPathWords.end(),
                                    [&](const auto& word) { return word.second == state.path; });
-    const Json json = {{"schema", kSchema},
-                       {"scene", state.scene},
-                       {"technique", state.technique},
-                       {"parameters", parametersJson(state)},
-                       {"resolution", orNull(state.resolution)},
-                       {"compare_with", state.compareWith},
-                       {"radius_m", orNull(state.radiusM)},
-                       {"radius_uv", orNull(state.radiusUv)},
-                       {"detection", state.audience.detection},
-                       {"people", state.audience.people},
-                       {"percentile", state.percentile},
-                       {"cross_fade_frames", state.crossFadeFrames},
-                       {"budget_texels", orNull(state.budgetTexels)},
-                       {"view", toText(state.view)},
-                       {"split_at", state.splitAt},
-                       {"gain", state.gain},
-                       {"camera_yaw_deg", orNull(state.cameraYawDeg)},
-                       {"camera_pitch_deg", orNull(state.cameraPitchDeg)},
-                       {"camera_distance_m", orNull(state.cameraDistanceM)},
-                       {"sun_azimuth_deg", orNull(state.sunAzimuthDeg)},
-                       {"sun_elevation_deg", orNull(state.sunElevationDeg)},
-                       {"path", path->first},
-                       {"path_place", state.pathPlace},
-                       {"panel", state.panel},
-                       {"time_passes", state.timePasses}};
+    const Json json = {
+        {"schema", kSchema},
+        {"scene", state.scene},
+        {"technique", state.technique},
+        {"parameters", parametersJson(state)},
+        {"resolution", orNull(state.resolution)},
+        {"compare_with", state.compareWith},
+        {"radius_m", orNull(state.radiusM)},
+        {"radius_uv", orNull(state.radiusUv)},
+        {"slope",
+         state.slopeFile ? Json(std::filesystem::absolute(*state.slopeFile).string()) : Json()},
+        {"detection", state.audience.detection},
+        {"people", state.audience.people},
+        {"percentile", state.percentile},
+        {"cross_fade_frames", state.crossFadeFrames},
+        {"budget_texels", orNull(state.budgetTexels)},
+        {"view", toText(state.view)},
+        {"view_map", state.viewMap},
+        {"split_at", state.splitAt},
+        {"gain", state.gain},
+        {"camera_yaw_deg", orNull(state.cameraYawDeg)},
+        {"camera_pitch_deg", orNull(state.cameraPitchDeg)},
+        {"camera_distance_m", orNull(state.cameraDistanceM)},
+        {"sun_azimuth_deg", orNull(state.sunAzimuthDeg)},
+        {"sun_elevation_deg", orNull(state.sunElevationDeg)},
+        {"path", path->first},
+        {"path_place", state.pathPlace},
+        {"panel", state.panel},
+        {"time_passes", state.timePasses}};
     records::writeWholeFile(file, json.dump(2) + "\n");
 }
 

@@ -23,17 +23,20 @@ struct ViewerState {
     std::string technique = "pcf_disc";
     /// Of techniques whose parameters are not the defaults.
     std::map<std::string, renderer::ParameterValues, std::less<>> parameters = {};
-    ResolutionOption resolution = {};               ///< absent: automatic
-    int compareWith = 4096;                         ///< N of the other frame, where a view has one
-    std::optional<double> radiusM = {};             ///< absent: the scene's own softness
-    std::optional<double> radiusUv = {};            ///< instead of radiusM
-    resolution_controller::Audience audience = {};  ///< for whom the automatic size is chosen
-    double percentile = 0.98;  ///< share of the points whose demand is met, [0.5, 1]; 1: of all
+    ResolutionOption resolution = {};     ///< absent: automatic
+    int compareWith = 4096;               ///< N of the other frame, where a view has one
+    std::optional<double> radiusM = {};   ///< absent: the scene's own softness
+    std::optional<double> radiusUv = {};  ///< instead of radiusM
+    std::optional<std::filesystem::path> slopeFile = {};  ///< absent: the published slope
+    resolution_controller::Audience audience = {};        ///< for whom the automatic size is chosen
+    double percentile = 0.98;  ///< share of the edges whose demand is met, [0.5, 1]; 1: of all
     int crossFadeFrames = 8;   ///< over which a change of the automatic size is faded, [0, 120]
     /// For the automatic sizes of all maps together, texels, [1, 1e12]; absent: no budget.
     std::optional<std::int64_t> budgetTexels = {};
 
     renderer::View view = renderer::View::picture;
+    /// Of the frame's maps, whose light and texels a view shows, from 1; beyond the last: the last.
+    int viewMap = 1;
     float splitAt = 0.5F;  ///< [0, 1]
     float gain = 4;        ///< of the difference, [1, 64]
 
@@ -55,6 +58,7 @@ std::string validate(const ViewerState& state);
 
 /// Throws std::runtime_error that names file, field, value and rule.
 ViewerState readViewerState(const std::filesystem::path& file);
+/// The slope's file with its whole path: the next start may be in another folder.
 void writeViewerState(const std::filesystem::path& file, const ViewerState& state);
 
 renderer::ParameterValues parametersOf(const ViewerState& state);

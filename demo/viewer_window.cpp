@@ -196,6 +196,9 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         if (request.screenshot) message = savePicture(viewer, options.pictureFolder);
         window.copyFrom(viewer.framebuffer(), viewer.frame().widthPx(), viewer.frame().heightPx());
         Interface::end();
+        if (options.windowPicture && shown + 1 == options.frames)
+            writePng(*options.windowPicture,
+                     renderer::readWindow(viewer.frame().widthPx(), viewer.frame().heightPx()));
         window.swap();
 
         const double ms = 1000 * seconds;

@@ -14,6 +14,8 @@ namespace demo {
 struct ViewerWindowOptions {
     int frames = 0;                       ///< after which to close; 0: when the user does
     std::filesystem::path pictureFolder;  ///< where "Save a picture" writes
+    /// Picture of the window, panel and all, in the last of `frames`; absent: none.
+    std::optional<std::filesystem::path> windowPicture = {};
     /// Where L reads the shaders again; absent: they are those of the program.
     std::optional<std::filesystem::path> shaderFolder = {};
 };

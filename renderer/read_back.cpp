@@ -41,6 +41,15 @@ ByteImage readColours(const Texture& texture, int width, int height) {
     return image;
 }
 
+ByteImage readWindow(int width, int height) {
+    ByteImage image(width, height, 3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.values.data());
+    flipRows(image);
+    return image;
+}
+
 ByteImage Renderer::readLit() {
     return readColours(lit_, widthPx_, heightPx_);
 }

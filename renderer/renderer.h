@@ -72,6 +72,8 @@ struct FrameSettings {
 
 /// A texture of 8-bit codes as a picture, 3 channels. Waits for the GPU.
 ByteImage readColours(const Texture& texture, int width, int height);
+/// What the context's window shows at its next swap, likewise.
+ByteImage readWindow(int width, int height);
 
 class Renderer {
   public:

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/view_pass.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 namespace renderer {
@@ -53,8 +55,13 @@ ViewPass::ViewPass(const ShaderLibrary& shaders, const std::string& demandGlsl)
 }
 
 void ViewPass::draw(const Renderer& frame, const Renderer* other, const ViewSettings& settings) {
-    const auto own = frame.outputs();
-    const auto theirs = other != nullptr ? other->outputs() : own;
+    const std::size_t maps = std::min(frame.lightViews().size(),
+                                      other != nullptr ? other->lightViews().size() : SIZE_MAX);
+    if (settings.map >= maps)
+        throw std::invalid_argument("view map is " + std::to_string(settings.map) +
+                                    ", must be below " + std::to_string(maps));
+    const auto own = frame.outputs(settings.map);
+    const auto theirs = other != nullptr ? other->outputs(settings.map) : own;
     if (!own || !theirs || (compares(settings.view) && other == nullptr))
         throw std::invalid_argument("view " + std::string(toText(settings.view)) +
                                     ": a frame that it shows was not drawn");
@@ -74,7 +81,7 @@ void ViewPass::draw(const Renderer& frame, const Renderer* other, const ViewSett
         target_ = makeTexture(GL_RGBA8, widthPx_, heightPx_, "view");
         framebuffer_ = makeFramebuffer({target_.name()}, 0, "view");
     }
-    frame.bindConstants();
+    frame.bindConstants(settings.map);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glViewport(0, 0, widthPx_, heightPx_);
     programs_.use(*own, settings.rule);

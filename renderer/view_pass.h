@@ -34,6 +34,7 @@ struct ViewSettings {
     float splitAt = 0.5F;  ///< the line's place, as a share of the width, [0, 1]
     float gain = 4;        ///< of the difference: 1 / gain is painted in full, > 0
     DemandRule rule;       ///< for the demand
+    std::size_t map = 0;   ///< of Renderer::lightViews(), whose light and texels are shown
 };
 
 class ViewPass {
@@ -49,8 +50,8 @@ class ViewPass {
         programs_.prepare(technique, rule);
     }
 
-    /// Both frames are drawn and of one size. `other` may be null for a view that does not compare.
-    /// Throws std::invalid_argument otherwise.
+    /// Both frames are drawn, of one size and have such a map. `other` may be null for a view that
+    /// does not compare. Throws std::invalid_argument otherwise.
     void draw(const Renderer& frame, const Renderer* other, const ViewSettings& settings);
 
     unsigned framebuffer() const { return framebuffer_.name(); }

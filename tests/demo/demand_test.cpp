@@ -161,12 +161,13 @@ Counters onTheCpu(renderer::Renderer& frame, const renderer::Technique& techniqu
                 shadow);
             if (radius < 0) continue;
             const bool between = renderer::f32::inPenumbra(surfaces.visibility.at(x, y));
-            const bool wide = technique.soft && radius >= receiver.footprintUv;
+            const float shown = renderer::f32::shownRadiusUv(radius, receiver, shadow);
+            const bool wide = technique.soft && shown >= receiver.footprintUv;
             if (!between && (wide || !surfaces.changesBeside(x, y))) continue;
             const int bin = rc::DemandHistogram::binOf(
                 rc::demand(rule, {.radiusUv = radius, .footprint = receiver.footprintUv}));
             counters[bin < 0 ? 64 : static_cast<std::size_t>(bin)] +=
-                rc::demandWeight(wide ? radius : 0, receiver.footprintUv);
+                rc::demandWeight(wide ? shown : 0, receiver.footprintUv);
         }
     }
     return counters;
@@ -195,17 +196,40 @@ TEST(DemandPass, HistogramIsTheCpusOnTheSameSurfaces) {
         // Edges that a group of the pass does not divide.
         renderer::Renderer frame(gl(), renderer::makeScene(scene.name), 161, 90);
         for (const char* technique : {"hard", "pcf_disc"}) {
-            for (const float radius : {0.0005F, 0.01F}) {
+            for (const auto& [radius, least] :
+                 {std::pair{0.0005F, 0.0F}, {0.01F, 0.0F}, {0.0005F, 0.0136F}}) {
                 const renderer::Technique& row = renderer::findTechnique(technique);
-                frame.render({.technique = &row, .resolution = 256, .radiusUv = radius});
+                frame.render({.technique = &row,
+                              .resolution = 256,
+                              .radiusUv = radius,
+                              .minRadiusUv = least});
                 const Counters expected = onTheCpu(frame, row, {.c = 3.47F, .texelsPerCaster = 0});
                 const Counters found = onTheGpu(pass, frame, {.c = 3.47F, .texelsPerCaster = 0});
                 EXPECT_GT(std::accumulate(expected.begin(), expected.end(), 0U), 50U);
-                EXPECT_EQ(found, expected) << scene.name << ' ' << technique << ' ' << radius;
+                EXPECT_EQ(found, expected)
+                    << scene.name << ' ' << technique << ' ' << radius << ' ' << least;
             }
         }
     }
     EXPECT_EQ(pass.lost(), 0);
+}
+
+// The contact of a fence with its shadow is as long whether its filter is a texel wide or,
+// enlarged, many pixels. What bins at 2 px a texel and more is enlarged wholly.
+TEST(DemandPass, AnEnlargedPenumbraWeighsWhatItsEdgeDoes) {
+    gl();
+    renderer::DemandPass pass(renderer::ShaderLibrary::embedded(), demo::kDemandGlsl);
+    renderer::Renderer frame(gl(), renderer::makeScene("planar_occluder"), 640, 360);
+    const auto weight = [&](float leastUv) {
+        frame.render({.technique = &renderer::findTechnique("pcf_disc"),
+                      .resolution = 128,
+                      .radiusUv = 0.004F,
+                      .minRadiusUv = leastUv});
+        const Counters counters = onTheGpu(pass, frame, {.c = 3.47F});
+        return std::accumulate(counters.begin(), counters.end() - 1, 0.0);
+    };
+    // Pixels are counted four times over by area; corners are rounded off by the wider filter.
+    EXPECT_NEAR(weight(0.016F) / weight(0), 1, 0.25);
 }
 
 TEST(DemandPass, AsksEveryPixelOfALargeFrameOnceToo) {

@@ -125,6 +125,7 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
         {{"--resolution", "1000000"}, "what the driver allows"},
         {{"--budget-texels", "0"}, "budget_texels: 0: must be in [1, 1e+12]"},
         {{"--budget-texels", "-4"}, "budget_texels: -4: must be in"},
+        {{"--window-picture", file}, "--window-picture needs a window and --frames"},
         {{"--replay", file}, file},
         {{"--replay", "/no/such.trace"}, "/no/such.trace"},
         {{"--trace", file, "--resolution", "64"}, "--trace: nothing was recorded"},
@@ -207,6 +208,10 @@ TEST(ShadowDemo, RunsInAWindow) {
     EXPECT_EQ(nlohmann::json::parse(std::ifstream(json)).at("scene"), "planar_occluder");
     const std::filesystem::path own = folder.path() / "stairwell" / "shadow_demo.json";
     EXPECT_EQ(nlohmann::json::parse(std::ifstream(own)).at("percentile"), 0.9);
+    const std::string window = (folder.path() / "window.png").string();
+    shown(" --window-picture " + window);
+    EXPECT_EQ(cv::imread(window).cols, 96);
+    EXPECT_GT(cv::norm(cv::imread(window), cv::imread(png)), 0) << "the panel lies over it";
     std::ofstream(own) << "{";
     shown("");
     EXPECT_THAT(records::readWholeFile(log), HasSubstr("beginning anew"));

@@ -31,14 +31,14 @@ ViewerState smallState(View view) {
 }
 
 renderer::ByteImage imageOf(const ViewerState& state) {
-    demo::Viewer viewer(gl(), state, std::nullopt, 96, 54);
+    demo::Viewer viewer(gl(), state, 96, 54);
     viewer.settle();
     return viewer.picture(1);
 }
 
 // As L in the window does it.
 TEST(Viewer, ShadersThatDoNotCompileLeaveThePictureAndTheStateAsTheyWere) {
-    demo::Viewer viewer(gl(), smallState(View::difference), std::nullopt, 96, 54);
+    demo::Viewer viewer(gl(), smallState(View::difference), 96, 54);
     viewer.settle();
     const renderer::ByteImage before = viewer.picture(1);
     renderer::ShaderLibrary::Files files = renderer::ShaderLibrary::embedded().files();
@@ -65,7 +65,7 @@ TEST(Viewer, ReloadsTheShadersOfTheDemand) {
     state.resolution.reset();
     state.radiusUv = 0.05;
     state.technique = "pcss";
-    demo::Viewer viewer(gl(), state, std::nullopt, 96, 54);
+    demo::Viewer viewer(gl(), state, 96, 54);
     viewer.settle();
     EXPECT_GT(viewer.run().chosen().need, 0);
     const renderer::ByteImage before = viewer.picture(1);
@@ -89,7 +89,7 @@ TEST(Viewer, ReloadsTheShadersOfTheDemand) {
 }
 
 TEST(Viewer, TakesAnotherSlopeOrKeepsTheLastOne) {
-    demo::Viewer viewer(gl(), smallState(View::picture), std::nullopt, 32, 18);
+    demo::Viewer viewer(gl(), smallState(View::picture), 32, 18);
     EXPECT_EQ(viewer.slope().slope.c, 3.47);
     const auto file =
         tests::sourceFolder() / "docs/results/software-rasteriser/simulated-slope.json";
@@ -107,6 +107,39 @@ TEST(Viewer, TakesAnotherSlopeOrKeepsTheLastOne) {
     EXPECT_GT(viewer.slope().slope.c, 4);
     viewer.useSlope(std::nullopt);
     EXPECT_EQ(viewer.slope().file, "");
+    EXPECT_FALSE(viewer.state().slopeFile);
+}
+
+TEST(Viewer, BeginsWithTheSlopeThatAStateFileNames) {
+    const tests::TemporaryFolder folder;
+    ViewerState state = smallState(View::picture);
+    state.slopeFile =
+        tests::sourceFolder() / "docs/results/software-rasteriser/simulated-slope.json";
+    demo::writeViewerState(folder.path() / "state.json", state);
+    const ViewerState again = demo::readViewerState(folder.path() / "state.json");
+    EXPECT_NEAR(demo::Viewer(gl(), again, 32, 18).slope().slope.c, 3.22, 0.005);
+    state.slopeFile = "/no/such/slope.json";
+    EXPECT_THAT(messageOf([&] { demo::Viewer(gl(), state, 32, 18); }),
+                HasSubstr("/no/such/slope.json"));
+    // A state that is refused leaves everything as it was.
+    demo::Viewer viewer(gl(), again, 32, 18);
+    EXPECT_THAT(messageOf([&] { viewer.show(state); }), HasSubstr("/no/such/slope.json"));
+    EXPECT_EQ(viewer.state(), again);
+    EXPECT_NEAR(viewer.slope().slope.c, 3.22, 0.005);
+}
+
+TEST(Viewer, ShowsThePenumbraeOfTheMapThatIsAskedFor) {
+    ViewerState state = smallState(View::penumbra);
+    state.scene = "lamps";
+    const auto pictureOf = [&](int map) {
+        state.viewMap = map;
+        demo::Viewer viewer(gl(), state, 96, 54);
+        viewer.settle();
+        return viewer.picture(1).values;
+    };
+    const auto sun = pictureOf(1), lastLamp = pictureOf(8);
+    EXPECT_NE(sun, lastLamp);
+    EXPECT_EQ(pictureOf(1000), lastLamp) << "beyond the last map";
 }
 
 TEST(Viewer, SplitShowsOneFrameOnEachSideOfTheLine) {
@@ -154,7 +187,7 @@ TEST(Viewer, DifferenceIsGreyWhereTheFramesAgree) {
 TEST(Viewer, PenumbraAndDemandPaintThePenumbra) {
     ViewerState state = smallState(View::penumbra);
     state.radiusUv = 0.05;  // wider than a pixel: beside a narrow penumbra, pixels ask too
-    demo::Viewer viewer(gl(), state, std::nullopt, 96, 54);
+    demo::Viewer viewer(gl(), state, 96, 54);
     viewer.settle();
     const renderer::ByteImage painted = viewer.picture(1);
     state.view = View::demand;
@@ -173,7 +206,7 @@ TEST(Viewer, PenumbraAndDemandPaintThePenumbra) {
 }
 
 TEST(Viewer, ShowsAnotherStateOrStaysAsItWas) {
-    demo::Viewer viewer(gl(), smallState(View::picture), std::nullopt, 64, 36);
+    demo::Viewer viewer(gl(), smallState(View::picture), 64, 36);
     viewer.settle();
     ViewerState state = viewer.state();
     state.scene = "planar_occluder";
@@ -208,6 +241,7 @@ TEST(ViewerState, IsReadAsItWasWritten) {
              .audience = {.detection = 0.1, .people = 0.9},
              .budgetTexels = 5'000'000'000,
              .view = View::difference,
+             .viewMap = 3,
              .splitAt = 0.25F,
              .gain = 8,
              .cameraYawDeg = 30.5F,
@@ -239,6 +273,8 @@ TEST(ViewerState, NamesFieldValueAndRuleOfABadFile) {
     EXPECT_THAT(readWith("\"yard\"", "\"yart\""), HasSubstr("yart"));
     EXPECT_THAT(readWith("\"pcf_disc\"", "\"pcf\""), HasSubstr("pcf"));
     EXPECT_THAT(readWith("4096", "0"), HasSubstr("compare_with: 0: must be at least 1"));
+    EXPECT_THAT(readWith("\"view_map\": 1", "\"view_map\": 0"),
+                HasSubstr("view_map: 0: must be at least 1"));
     EXPECT_THAT(readWith("\"gain\": 4.0", "\"gain\": 400"), HasSubstr("gain: 400"));
     EXPECT_THAT(readWith("\"budget_texels\": null", "\"budget_texels\": 0"),
                 HasSubstr("budget_texels: 0: must be in [1, 1e+12]"));

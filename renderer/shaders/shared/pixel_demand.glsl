@@ -66,7 +66,9 @@ PixelDemand pixelDemand(ivec2 pixel) {
     if (!between && !changesBeside(pixel, position.xyz, plane.xyz, visibility)) return kAsksForNothing;
     float radius = penumbraRadiusUv(depths, receiver, shadow);
     if (radius < 0.0) return kAsksForNothing;
-    bool wide = hasKernel != 0u && max(radius, shadow.kernel.y) >= receiver.footprintUv;
+    // The penumbra on screen is that of the filter as it is shown, enlarged where the map is limited.
+    float shown = shownRadiusUv(radius, receiver, shadow);
+    bool wide = hasKernel != 0u && shown >= receiver.footprintUv;
     if (wide && !between) return kAsksForNothing;
     StairwellDemandRule asked = StairwellDemandRule(rule.x, rule.y, rule.z, rule.w);
     float contrast = 1.0;
@@ -75,5 +77,5 @@ PixelDemand pixelDemand(ivec2 pixel) {
 #endif
     float texels = stairwellDemand(asked, radius, receiver.footprintUv, contrast, 0.0);
     // Where the penumbra is narrower than a pixel, or there is none, the pixel is one of the edge.
-    return PixelDemand(texels, stairwellDemandWeight(wide ? radius : 0.0, receiver.footprintUv));
+    return PixelDemand(texels, stairwellDemandWeight(wide ? shown : 0.0, receiver.footprintUv));
 }
