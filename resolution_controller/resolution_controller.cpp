@@ -369,16 +369,17 @@ Decision ResolutionController::hold(const Frame& frame) noexcept {
     return held(unusable(without).value_or(Reason::heldWithoutData), frame);
 }
 
-/// The last decision again, unless a limit has moved.
+/// The last decision again, unless a limit has moved or the slope is another: the answer to too few
+/// texels is the present slope's.
 Decision ResolutionController::held(Reason reason, const Frame& frame) noexcept {
     Decision d = state_.last;
     d.reason = reason;
     d.size = within(limits(frame));
     if (d.size != state_.last.size) {
         d.artifactRatio *= static_cast<double>(state_.last.size) / d.size;
-        const bool limited = d.shareAbove > 0 || d.artifactRatio > 1;
-        d.minRadiusUv = limited ? settings_.slope.c / d.size : 0;
     }
+    const bool limited = d.shareAbove > 0 || d.artifactRatio > 1;
+    d.minRadiusUv = limited ? settings_.slope.c / d.size : 0;
     return finish(d, state_.hadData);
 }
 

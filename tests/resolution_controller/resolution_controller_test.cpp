@@ -414,6 +414,31 @@ TEST(ResolutionController, MovesIntoNewLimitsAndLevelsAtOnce) {
     EXPECT_EQ(controller.update(radiusFor(1000)).size, 2048) << "twice the slope, twice the map";
 }
 
+TEST(ResolutionController, EnlargesByThePresentSlopeAlsoWithoutData) {
+    rc::DemandHistogram few;
+    few.add(5000);
+    few.add(300, 99);
+    for (const bool histogram : {false, true}) {
+        rc::ResolutionController controller({.maxSize = 512});
+        const rc::Decision before =
+            histogram ? controller.update(few) : controller.update(radiusFor(1000));
+        ASSERT_EQ(before.minRadiusUv, 3.47 / before.size);
+        ASSERT_EQ(controller.reconfigure({.slope = {.c = 6.94}, .maxSize = 512}), "");
+        for (const rc::Decision& d : {controller.hold(), controller.update(kNan),
+                                      controller.update(rc::DemandHistogram{})}) {
+            EXPECT_EQ(d.size, before.size);
+            EXPECT_EQ(d.minRadiusUv, 6.94 / d.size) << rc::text(d.reason);
+            EXPECT_GE(d.map.radiusUv, histogram ? 0 : d.minRadiusUv);
+        }
+        EXPECT_NE(controller.reconfigure({.slope = {.c = kNan}, .maxSize = 512}), "");
+        EXPECT_EQ(controller.hold().minRadiusUv, 6.94 / before.size) << "the last usable one";
+    }
+    rc::ResolutionController met({});
+    met.update(radiusFor(1000));
+    ASSERT_EQ(met.reconfigure({.slope = {.c = 6.94}}), "");
+    EXPECT_EQ(met.hold().minRadiusUv, 0) << "no filter was narrower than its slope asks";
+}
+
 TEST(ResolutionController, SameInputSameDecisions) {
     std::mt19937_64 rng(6);
     rc::ResolutionController a({}), b({});
