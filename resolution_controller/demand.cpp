@@ -41,10 +41,12 @@ float demand(float c, float radiusUv, float footprint, float pixelBound) noexcep
     return atMostPerPixel(forFilter, footprint, pixelBound);
 }
 
-std::uint32_t demandWeight(float radiusUv, float footprint) noexcept {
-    if (!positiveAndFinite(footprint) || !(radiusUv >= 0) || !std::isfinite(radiusUv)) return 1;
-    if (footprint / 2 >= radiusUv) return kWholeDemandWeight;
-    const float share = footprint / 2 / radiusUv * static_cast<float>(kWholeDemandWeight);
+std::uint32_t demandWeight(float shownRadiusUv, float footprint) noexcept {
+    if (!positiveAndFinite(footprint) || !(shownRadiusUv >= 0) || !std::isfinite(shownRadiusUv)) {
+        return 1;
+    }
+    if (footprint / 2 >= shownRadiusUv) return kWholeDemandWeight;
+    const float share = footprint / 2 / shownRadiusUv * static_cast<float>(kWholeDemandWeight);
     return static_cast<std::uint32_t>(std::max(share + 0.5f, 1.0f));
 }
 

@@ -10,8 +10,11 @@
 //     resolution_controller::DemandHistogram histogram;
 //     for (each sampled pixel in penumbra) {
 //         const float sigma = pixelFootprint(duvDpixel);
-//         histogram.add(demand(c, radiusUv, sigma), demandWeight(radiusUv, sigma));
+//         histogram.add(demand(c, radiusUv, sigma), demandWeight(shownRadiusUv, sigma));
 //     }
+//
+// shownRadiusUv is max(radiusUv, minRadiusUv) where a texel is larger than a pixel, radiusUv
+// elsewhere: what is asked is for the filter as the light would have it, what is seen is as drawn.
 //
 // What is seen is the edge of a shadow, so points count by how much of it they stand for: one whose
 // penumbra is forty pixels across counts a fortieth of one at a sharp edge. Counted by area, the
@@ -48,10 +51,14 @@ float demand(float c, float radiusUv, float footprint, float pixelBound = 1) noe
 inline constexpr std::uint32_t kWholeDemandWeight = 64;
 
 /// How much of a shadow's edge a point in penumbra stands for, in 64ths of a pixel: 1 pixel over
-/// the penumbra's width across, 2 radiusUv / footprint; rounded, 1 to kWholeDemandWeight. 1
+/// the penumbra's width across, 2 shownRadiusUv / footprint; rounded, 1 to kWholeDemandWeight. 1
 /// where the footprint is not positive and finite or the radius is NaN, negative or infinite, so
 /// that all points count alike where nothing is known of pixels.
-std::uint32_t demandWeight(float radiusUv, float footprint) noexcept;
+///
+/// The radius is the one that the picture shows, after enlargement to minRadiusUv: the points of a
+/// contact whose filter is enlarged to a band of 14 pixels count a 14th each, as that band has 14
+/// of them for each pixel of its edge.
+std::uint32_t demandWeight(float shownRadiusUv, float footprint) noexcept;
 
 /// What a light asks of every point, fixed for a frame; demandRule() of resolution_controller.h
 /// fills it from settings.
@@ -98,6 +105,13 @@ struct DemandHistogram {
         return *this;
     }
 
+    /// Takes back what was added earlier.
+    constexpr DemandHistogram& operator-=(const DemandHistogram& other) noexcept {
+        for (std::size_t b = 0; b < kBins; ++b) counts[b] -= other.counts[b];
+        rejected -= other.rejected;
+        return *this;
+    }
+
     constexpr std::uint64_t total() const noexcept {
         std::uint64_t sum = 0;
         for (const std::uint32_t count : counts) sum += count;
@@ -134,12 +148,18 @@ static_assert(sizeof(DemandHistogram) == 65 * sizeof(std::uint32_t));
 /// The histograms of the last frames together. Where a frame asks a share of its pixels, others
 /// each time, its own histogram leaves the percentile to the few pixels that happened to be asked,
 /// and since sizes rise at once the largest of such guesses would stand. As many frames as it takes
-/// to ask every pixel once say the same in every frame of a still view; in a moving one, a demand
-/// is heard once it has (1 - percentile) of their weight: the next frame for what covers much.
+/// to ask every pixel once say the same in every frame of a still view as long as no reading is
+/// lost; where a ring of read-backs skips one that is not finished, the pixels it asked are missing
+/// until their turn comes again.
 ///
-///     recent.add(histogram);  // every frame with data
+/// What is new is heard once it has (1 - percentile) of the sum's weight: an edge with a share s of
+/// the weight after about frames x (1 - percentile) / s frames. With 16 frames and .98, an edge of
+/// 5 % after 7 frames, one of a third or more in the next.
+///
+///     RecentDemand recent(16);              // once for each light
+///     if (reading) recent.add(*reading);    // every frame
 ///     controller.update(recent.sum());
-///     recent.clear();         // at a camera cut
+///     recent.clear();                       // at a camera cut; then add nothing drawn before it
 class RecentDemand {
   public:
     static constexpr int kMostFrames = 64;
@@ -152,9 +172,8 @@ class RecentDemand {
 
     constexpr const DemandHistogram& add(const DemandHistogram& newest) noexcept {
         DemandHistogram& oldest = last_[static_cast<std::size_t>(next_)];
-        for (std::size_t b = 0; b < DemandHistogram::kBins; ++b)
-            sum_.counts[b] += newest.counts[b] - oldest.counts[b];
-        sum_.rejected += newest.rejected - oldest.rejected;
+        sum_ += newest;
+        sum_ -= oldest;
         oldest = newest;
         next_ = (next_ + 1) % frames_;
         return sum_;

@@ -2,6 +2,7 @@
 #include "resolution_controller/stairwell.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -18,6 +19,7 @@
 namespace rc = resolution_controller;
 
 static_assert(sizeof(stairwell_histogram) == sizeof(rc::DemandHistogram));
+static_assert(STAIRWELL_MOST_RECENT == rc::RecentDemand::kMostFrames);
 static_assert(STAIRWELL_SWITCHED_OFF == static_cast<int>(rc::Reason::switchedOff) &&
               STAIRWELL_SWITCHED_OFF == rc::kReasons - 1);
 static_assert(STAIRWELL_HELD_WITHOUT_DATA == static_cast<int>(rc::Reason::heldWithoutData));
@@ -117,6 +119,19 @@ bool hasItsSize(const stairwell_settings& s) noexcept {
     return s.struct_size == sizeof s && s.slope.struct_size == sizeof s.slope;
 }
 
+rc::DemandHistogram fromC(const stairwell_histogram& histogram) noexcept {
+    return std::bit_cast<rc::DemandHistogram>(histogram);
+}
+
+/// Whether it is as stairwell_recent_init left it, as far as can be seen: what is not must not lead
+/// the writing elsewhere.
+stairwell_status check(const stairwell_recent& recent) noexcept {
+    if (recent.struct_size != sizeof recent) return STAIRWELL_BAD_STRUCT_SIZE;
+    const bool inside = recent.frames >= 1 && recent.frames <= STAIRWELL_MOST_RECENT &&
+                        recent.next >= 0 && recent.next < recent.frames;
+    return inside ? STAIRWELL_OK : STAIRWELL_BAD_VALUE;
+}
+
 /// `histogram` is where the light's histogram is kept during the call.
 rc::LightData fromC(const stairwell_light& light, rc::DemandHistogram& histogram) noexcept {
     rc::LightData data{.kind = static_cast<rc::LightData::Kind>(light.kind),
@@ -130,8 +145,7 @@ rc::LightData fromC(const stairwell_light& light, rc::DemandHistogram& histogram
                                  .largestRadiusUv = light.largest_radius_uv}};
     if (light.budget_size != 0) data.frame.budgetSize = light.budget_size;
     if (light.kind == STAIRWELL_HISTOGRAM && light.histogram) {
-        std::copy_n(light.histogram->counts, histogram.counts.size(), histogram.counts.begin());
-        histogram.rejected = light.histogram->rejected;
+        histogram = fromC(*light.histogram);
         data.histogram = &histogram;
     }
     return data;
@@ -274,8 +288,8 @@ float stairwell_demand(const stairwell_settings* settings, float radius_uv, floa
                                                          .casterWidthUv = caster_width_uv});
 }
 
-uint32_t stairwell_demand_weight(float radius_uv, float footprint) noexcept {
-    return rc::demandWeight(radius_uv, footprint);
+uint32_t stairwell_demand_weight(float shown_radius_uv, float footprint) noexcept {
+    return rc::demandWeight(shown_radius_uv, footprint);
 }
 
 stairwell_status stairwell_histogram_add(stairwell_histogram* histogram, float demanded_texels,
@@ -284,6 +298,38 @@ stairwell_status stairwell_histogram_add(stairwell_histogram* histogram, float d
     const int bin = rc::DemandHistogram::binOf(demanded_texels);
     (bin < 0 ? histogram->rejected : histogram->counts[bin]) += weight;
     return STAIRWELL_OK;
+}
+
+stairwell_status stairwell_recent_init(stairwell_recent* recent, size_t size,
+                                       int32_t frames) noexcept {
+    if (!recent) return STAIRWELL_NULL_ARGUMENT;
+    if (size != sizeof *recent) return STAIRWELL_BAD_STRUCT_SIZE;
+    if (frames < 1 || frames > STAIRWELL_MOST_RECENT) return STAIRWELL_BAD_VALUE;
+    std::memset(recent, 0, sizeof *recent);
+    recent->struct_size = sizeof *recent;
+    recent->frames = frames;
+    return STAIRWELL_OK;
+}
+
+stairwell_status stairwell_recent_add(stairwell_recent* recent,
+                                      const stairwell_histogram* newest) noexcept {
+    if (!recent || !newest) return STAIRWELL_NULL_ARGUMENT;
+    if (const stairwell_status bad = check(*recent)) return bad;
+    stairwell_histogram& oldest = recent->last[recent->next];
+    const stairwell_histogram added = *newest;  // which may be the sum itself
+    rc::DemandHistogram sum = fromC(recent->sum);
+    sum += fromC(added);
+    sum -= fromC(oldest);
+    recent->sum = std::bit_cast<stairwell_histogram>(sum);
+    oldest = added;
+    recent->next = (recent->next + 1) % recent->frames;
+    return STAIRWELL_OK;
+}
+
+stairwell_status stairwell_recent_clear(stairwell_recent* recent) noexcept {
+    if (!recent) return STAIRWELL_NULL_ARGUMENT;
+    if (const stairwell_status bad = check(*recent)) return bad;
+    return stairwell_recent_init(recent, sizeof *recent, recent->frames);
 }
 
 stairwell_status stairwell_light_init(stairwell_light* light, size_t size) noexcept {

@@ -23,7 +23,7 @@
  * their init function with sizeof, so that a caller and a library of different age notice each
  * other. A pointer that is neither NULL nor what the function asks for cannot be noticed.
  *
- * stairwell_update, and what else is called every frame (demand, histogram, texts), neither
+ * stairwell_update, and what else is called every frame (demand, histogram, recent, texts), neither
  * allocates nor waits nor looks at a clock. One set of lights is for one thread at a time;
  * different sets and the functions without a set are for any.
  *
@@ -103,8 +103,7 @@ enum {
 const char* stairwell_warning_text(uint32_t warning) STAIRWELL_NOEXCEPT;
 
 /* The slope for an audience: `detection` in [0, 1), 0 meaning the slope's own criterion; `people`
- * in
- * [.01, .99], .5 being the mean observer. Encoding and kernel are the renderer's. `measured` and
+ * in [.01, .99], .5 being the mean observer. Encoding and kernel are the renderer's. `measured` and
  * `asked` may be the same; `warnings` may be NULL. */
 stairwell_status stairwell_slope_for(const stairwell_slope* measured, double detection,
                                      double people, int32_t encoding, int32_t kernel,
@@ -153,11 +152,42 @@ float stairwell_pixel_footprint(float dudx, float dvdx, float dudy, float dvdy) 
 float stairwell_demand(const stairwell_settings* settings, float radius_uv, float footprint,
                        float contrast, float caster_width_uv) STAIRWELL_NOEXCEPT;
 /* How much of a shadow's edge the point stands for, in 64ths of a pixel, 1 to 64; 1 where radius or
- * footprint cannot be used. */
-uint32_t stairwell_demand_weight(float radius_uv, float footprint) STAIRWELL_NOEXCEPT;
+ * footprint cannot be used. The radius as it is shown, after enlargement to min_radius_uv. */
+uint32_t stairwell_demand_weight(float shown_radius_uv, float footprint) STAIRWELL_NOEXCEPT;
 /* Counts a demand `weight` times; 1 everywhere lets all points count alike. */
 stairwell_status stairwell_histogram_add(stairwell_histogram* histogram, float demanded_texels,
                                          uint32_t weight) STAIRWELL_NOEXCEPT;
+
+enum { STAIRWELL_MOST_RECENT = 64 };
+
+/* The histograms of a light's last frames together, RecentDemand: what stairwell_light.histogram
+ * points to where a frame asks only a share of its pixels.
+ *
+ *     stairwell_recent_init(&recent, sizeof recent, 16);
+ *     ... every frame:
+ *     if (reading) stairwell_recent_add(&recent, reading);
+ *     light.histogram = &recent.sum;
+ *     ... at a camera cut, and then add nothing drawn before it:
+ *     stairwell_recent_clear(&recent);
+ */
+typedef struct stairwell_recent {
+    uint32_t struct_size;
+    int32_t frames;          /* that count, 1 to STAIRWELL_MOST_RECENT */
+    stairwell_histogram sum; /* to be read */
+    /* The library's: */
+    int32_t next;     /* which of `last` is the oldest */
+    int32_t reserved; /* 0 */
+    stairwell_histogram last[STAIRWELL_MOST_RECENT];
+} stairwell_recent;
+
+/* Empty. `size` is sizeof(stairwell_recent). STAIRWELL_BAD_VALUE: not so many frames. */
+stairwell_status stairwell_recent_init(stairwell_recent* recent, size_t size,
+                                       int32_t frames) STAIRWELL_NOEXCEPT;
+/* Adds the newest frame's histogram to the sum and takes the oldest's out of it. */
+stairwell_status stairwell_recent_add(stairwell_recent* recent,
+                                      const stairwell_histogram* newest) STAIRWELL_NOEXCEPT;
+/* Empty again, for as many frames. */
+stairwell_status stairwell_recent_clear(stairwell_recent* recent) STAIRWELL_NOEXCEPT;
 
 /* ---- Lights ---- */
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The C interface under any calls with any values: no crash, no size outside the levels, no budget
-// exceeded, no output that is not finite, and what was recorded replays to the same decisions.
+// exceeded, no output that is not finite, what was recorded replays to the same decisions, and
+// recent frames add up as the class of C++ adds them.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <random>
 #include <span>
 #include <vector>
 
+#include "resolution_controller/demand.h"
 #include "resolution_controller/levels.h"
 #include "resolution_controller/stairwell.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -117,6 +120,54 @@ stairwell_light lightFrom(Bytes& in, stairwell_histogram& histogram) {
     return light;
 }
 
+/// A light's recent frames through C and through C++, until a program writes over the struct.
+class Recent {
+  public:
+    explicit Recent(Bytes& in) {
+        const std::int32_t frames = in.whole(1 + in.below(STAIRWELL_MOST_RECENT));
+        const bool made = stairwell_recent_init(&c_, sizeof c_, frames) == STAIRWELL_OK;
+        fuzz::require(made == (frames >= 1 && frames <= STAIRWELL_MOST_RECENT),
+                      "as many frames as there is room for");
+        if (made) {
+            cpp_ = resolution_controller::RecentDemand(frames);
+        } else {
+            stairwell_recent_init(&c_, sizeof c_, 1);
+        }
+    }
+
+    const stairwell_histogram& add(Bytes& in, const stairwell_histogram& newest) {
+        if (in.below(16) == 0) spoil(in);
+        if (in.below(16) == 0 && stairwell_recent_clear(&c_) == STAIRWELL_OK) cpp_.clear();
+        if (stairwell_recent_add(&c_, &newest) == STAIRWELL_OK) {
+            cpp_.add(std::bit_cast<resolution_controller::DemandHistogram>(newest));
+        }
+        fuzz::require(
+            spoilt_ || std::bit_cast<resolution_controller::DemandHistogram>(c_.sum) == cpp_.sum(),
+            "C adds up as C++ does");
+        return c_.sum;
+    }
+
+  private:
+    void spoil(Bytes& in) {
+        spoilt_ = true;
+        switch (in.below(3)) {
+            case 0:
+                c_.struct_size = in.take<std::uint32_t>();
+                break;
+            case 1:
+                c_.frames = in.whole(in.below(70));
+                break;
+            default:
+                c_.next = in.whole(in.below(70));
+                break;
+        }
+    }
+
+    stairwell_recent c_{};
+    resolution_controller::RecentDemand cpp_;
+    bool spoilt_ = false;
+};
+
 void check(const stairwell_decision& d) {
     using namespace resolution_controller;
     fuzz::require(levelAtLeast(d.size, LevelRatio::sqrtTwo) == d.size, "the size is a level");
@@ -156,6 +207,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<std::byte> trace(1 << 16);
     const bool tracing = stairwell_trace_start(lights, trace.data(), trace.size()) == STAIRWELL_OK;
     std::vector<stairwell_histogram> histograms(count, stairwell_histogram{});
+    std::vector<Recent> recent;
+    recent.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) recent.emplace_back(in);
     std::vector<stairwell_light> frame(count);
     std::vector<stairwell_decision> decisions(count);
     for (int call = 0; call < 200 && !in.empty(); ++call) {
@@ -165,7 +219,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                   sizeof message);
             continue;
         }
-        for (std::size_t i = 0; i < count; ++i) frame[i] = lightFrom(in, histograms[i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            frame[i] = lightFrom(in, histograms[i]);
+            if (in.below(3) == 0) frame[i].histogram = &recent[i].add(in, histograms[i]);
+        }
         const std::int64_t budget =
             in.below(8) == 0 ? in.take<std::int64_t>() : std::int64_t{100'000} * in.below(255);
         const bool limited = in.below(3) > 0;

@@ -24,15 +24,18 @@ TEST(Allocation, IsCounted) {
 TEST(Allocation, NoneInTheCallsOfAFrame) {
     rc::ResolutionController controller({});
     rc::DemandHistogram histogram;
+    rc::RecentDemand recent(16);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     long reasonLength = 0;
     const long before = allocationCount();
     for (int frame = 0; frame < 500; ++frame) {
         const float r = 0.0005f * float(1 + frame % 60);
         histogram.add(rc::demand(3.47f, r, rc::pixelFootprint({.dudx = r, .dvdy = r})));
+        if (frame % 100 == 99) recent.clear();
+        recent.add(histogram);
         const rc::Frame limited{.budgetSize = frame % 7 == 0 ? std::optional(frame) : std::nullopt};
         for (const rc::Decision& d :
-             {controller.update(histogram, limited), controller.update(double(r)),
+             {controller.update(recent.sum(), limited), controller.update(double(r)),
               controller.update(nan), controller.hold(limited),
               controller.update(rc::DemandHistogram{})}) {
             reasonLength += rc::text(d.reason)[0];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -93,12 +95,108 @@ TEST(CInterface, DecidesAsTheLightSetDoes) {
     }
 }
 
+rc::DemandHistogram inCpp(const stairwell_histogram& histogram) {
+    return std::bit_cast<rc::DemandHistogram>(histogram);
+}
+
+TEST(CInterface, AddsRecentFramesUpAsTheClassDoes) {
+    std::mt19937_64 rng(2);
+    for (int frames = 1; frames <= STAIRWELL_MOST_RECENT; ++frames) {
+        stairwell_recent c;
+        ASSERT_EQ(stairwell_recent_init(&c, sizeof c, frames), STAIRWELL_OK);
+        rc::RecentDemand cpp(frames);
+        EXPECT_EQ(inCpp(c.sum), cpp.sum());
+        for (int i = 0; i < 200; ++i) {
+            if (rng() % 100 == 0) {
+                EXPECT_EQ(stairwell_recent_clear(&c), STAIRWELL_OK);
+                cpp.clear();
+            }
+            stairwell_histogram newest{};
+            for (int point = 0; point < 5; ++point) {
+                const auto n = std::bit_cast<float>(std::uint32_t(rng()));
+                stairwell_histogram_add(&newest, n, std::uint32_t(rng()));  // counters wrap, too
+            }
+            EXPECT_EQ(stairwell_recent_add(&c, &newest), STAIRWELL_OK);
+            ASSERT_EQ(inCpp(c.sum), cpp.add(inCpp(newest))) << frames << ' ' << i;
+        }
+    }
+}
+
+TEST(CInterface, AddsASumToItself) {
+    stairwell_recent recent;
+    ASSERT_EQ(stairwell_recent_init(&recent, sizeof recent, 2), STAIRWELL_OK);
+    stairwell_histogram one{};
+    one.counts[7] = 1;
+    stairwell_recent_add(&recent, &one);
+    EXPECT_EQ(stairwell_recent_add(&recent, &recent.sum), STAIRWELL_OK);
+    EXPECT_EQ(recent.sum.counts[7], 2u);
+    EXPECT_EQ(stairwell_recent_add(&recent, &recent.last[1]), STAIRWELL_OK);
+    EXPECT_EQ(recent.sum.counts[7], 2u) << "the last two, of one each";
+}
+
+TEST(CInterface, RefusesANumberOfRecentFramesThatItCannotKeep) {
+    stairwell_recent recent;
+    std::memset(&recent, 0x5a, sizeof recent);
+    for (const int frames :
+         {0, -1, 65, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
+        EXPECT_EQ(stairwell_recent_init(&recent, sizeof recent, frames), STAIRWELL_BAD_VALUE);
+    }
+    EXPECT_EQ(stairwell_recent_init(&recent, sizeof recent - 4, 16), STAIRWELL_BAD_STRUCT_SIZE);
+    EXPECT_EQ(recent.frames, 0x5a5a5a5a) << "outputs are untouched on failure";
+}
+
+// Where the struct is not what init made, nothing is written, in it or beside it.
+TEST(CInterface, LeavesRecentFramesThatWereNotInitialisedAlone) {
+    constexpr int kLeast = std::numeric_limits<int>::min(), kMost = std::numeric_limits<int>::max();
+    struct Spoilt {
+        std::uint32_t structSize;
+        int frames, next;
+        stairwell_status status;
+    };
+    constexpr std::uint32_t kSize = sizeof(stairwell_recent);
+    std::mt19937_64 rng(3);
+    const stairwell_histogram newest{.counts = {1, 2, 3}, .rejected = 4};
+    struct Guarded {
+        unsigned char before[4096];
+        stairwell_recent recent;
+        unsigned char after[4096];
+    };
+    std::vector<Guarded> bytes(2);
+    Guarded &used = bytes[0], &kept = bytes[1];
+    const auto same = [&] { return std::memcmp(&used, &kept, sizeof used) == 0; };
+    for (const Spoilt& s : {Spoilt{0, 16, 0, STAIRWELL_BAD_STRUCT_SIZE},
+                            {kSize - 4, 16, 0, STAIRWELL_BAD_STRUCT_SIZE},
+                            {kSize, 0, 0, STAIRWELL_BAD_VALUE},
+                            {kSize, -1, 0, STAIRWELL_BAD_VALUE},
+                            {kSize, kLeast, kLeast, STAIRWELL_BAD_VALUE},
+                            {kSize, 65, 64, STAIRWELL_BAD_VALUE},
+                            {kSize, kMost, 70, STAIRWELL_BAD_VALUE},
+                            {kSize, 16, 16, STAIRWELL_BAD_VALUE},
+                            {kSize, 16, kMost, STAIRWELL_BAD_VALUE},
+                            {kSize, 16, -1, STAIRWELL_BAD_VALUE},
+                            {kSize, 64, kLeast, STAIRWELL_BAD_VALUE}}) {
+        auto* const all = reinterpret_cast<unsigned char*>(&used);
+        std::generate_n(all, sizeof used, [&] { return static_cast<unsigned char>(rng()); });
+        used.recent.struct_size = s.structSize;
+        used.recent.frames = s.frames;
+        used.recent.next = s.next;
+        std::memcpy(&kept, &used, sizeof used);
+        EXPECT_EQ(stairwell_recent_add(&used.recent, &newest), s.status);
+        EXPECT_TRUE(same()) << s.frames << ' ' << s.next;
+        EXPECT_EQ(stairwell_recent_clear(&used.recent), s.status);
+        EXPECT_TRUE(same()) << s.frames << ' ' << s.next;
+    }
+}
+
 TEST(CInterface, RefusesNullEverywhere) {
     stairwell_lights* none = nullptr;
     Lights lights(1);
     const stairwell_light light = withRadius(0.01);
     stairwell_decision d;
     stairwell_slope slope;
+    const stairwell_histogram histogram{};
+    stairwell_recent recent;
+    stairwell_recent_init(&recent, sizeof recent, 16);
     const stairwell_settings settings = defaults();
     for (const stairwell_status status :
          {stairwell_slope_init(nullptr, sizeof(stairwell_slope)),
@@ -106,7 +204,12 @@ TEST(CInterface, RefusesNullEverywhere) {
           stairwell_light_init(nullptr, sizeof(stairwell_light)),
           stairwell_slope_for(nullptr, 0, 0.5, 0, 0, &slope, nullptr),
           stairwell_slope_for(&settings.slope, 0, 0.5, 0, 0, nullptr, nullptr),
-          stairwell_histogram_add(nullptr, 1, 1), stairwell_create(nullptr, 1, &none, nullptr, 0),
+          stairwell_histogram_add(nullptr, 1, 1),
+          stairwell_recent_init(nullptr, sizeof(stairwell_recent), 16),
+          stairwell_recent_add(nullptr, &histogram),
+          stairwell_recent_add(&recent, nullptr),
+          stairwell_recent_clear(nullptr),
+          stairwell_create(nullptr, 1, &none, nullptr, 0),
           stairwell_create(&settings, 1, nullptr, nullptr, 0),
           stairwell_update(nullptr, &light, 1, nullptr, &d, sizeof d, nullptr),
           stairwell_update(lights.handle, nullptr, 1, nullptr, &d, sizeof d, nullptr),
@@ -266,15 +369,21 @@ TEST(CInterface, AllocatesNothingInAFrame) {
     Lights lights(8);
     std::vector<std::byte> buffer(1 << 20);
     stairwell_trace_start(lights.handle, buffer.data(), buffer.size());
-    const std::vector<stairwell_light> data(8, withRadius(0.002));
+    std::vector<stairwell_light> data(8, withRadius(0.002));
     std::vector<stairwell_decision> d(8);
     const std::int64_t budget = 1'000'000;
     stairwell_histogram histogram{};
+    stairwell_recent recent;
+    data[0].kind = STAIRWELL_HISTOGRAM;
+    data[0].histogram = &recent.sum;
     const stairwell_settings settings = defaults();
     const long before = allocationCount();
+    stairwell_recent_init(&recent, sizeof recent, 16);
     for (int frame = 0; frame < 100; ++frame) {
         stairwell_histogram_add(&histogram, stairwell_demand(&settings, 0.01f, 0.001f, 1, 0),
                                 stairwell_demand_weight(0.01f, 0.001f));
+        if (frame == 50) stairwell_recent_clear(&recent);
+        stairwell_recent_add(&recent, &histogram);
         stairwell_update(lights.handle, data.data(), 8, &budget, d.data(), sizeof d[0], nullptr);
     }
     EXPECT_EQ(allocationCount(), before);

@@ -25,12 +25,15 @@ std::vector<rc::DemandHistogram> breathingScene() {
     return frames;
 }
 
+/// A frame of one light, from the newest histogram to the decision.
 void updateWithHistogram(benchmark::State& state) {
     const auto frames = breathingScene();
+    rc::RecentDemand recent(16);
     rc::ResolutionController controller({});
     std::size_t frame = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(controller.update(frames[frame++ % frames.size()]));
+        recent.add(frames[frame++ % frames.size()]);
+        benchmark::DoNotOptimize(controller.update(recent.sum()));
     }
 }
 BENCHMARK(updateWithHistogram);

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "resolution_controller/resolution_controller.h"
+
 namespace {
 
 namespace rc = resolution_controller;
@@ -204,7 +206,8 @@ TEST(RecentDemand, IsTheSumOfTheLastFrames) {
         for (int i = 0; i < 3 * frames; ++i) {
             rc::DemandHistogram& newest = all.emplace_back();
             for (int point = 0; point < 20; ++point)
-                newest.add(std::exp2(static_cast<float>(random() % 16)), static_cast<std::uint32_t>(random() % 64));
+                newest.add(std::exp2(static_cast<float>(random() % 16)),
+                           static_cast<std::uint32_t>(random() % 64));
             newest.add(kNan, static_cast<std::uint32_t>(random() % 3));
             rc::DemandHistogram expected;
             for (std::size_t k = all.size() - std::min(all.size(), std::size_t(frames));
@@ -216,6 +219,31 @@ TEST(RecentDemand, IsTheSumOfTheLastFrames) {
         EXPECT_EQ(recent.sum(), rc::DemandHistogram());
         EXPECT_EQ(recent.add(all.front()), all.front()) << "what was cleared does not come back";
         EXPECT_EQ(recent.frames(), frames);
+    }
+}
+
+TEST(RecentDemand, HearsAnEdgeAfterTheFramesThatItsShareSays) {
+    constexpr int kFrames = 16;
+    constexpr double kPercentile = 0.98;
+    rc::DemandHistogram before;
+    before.add(500, 1000);
+    for (const std::uint32_t weight : {25u, 50u, 100u, 200u, 400u}) {
+        rc::RecentDemand recent(kFrames);
+        rc::ResolutionController controller({.percentile = kPercentile});
+        for (int i = 0; i < kFrames; ++i) recent.add(before);
+        ASSERT_EQ(controller.update(recent.sum()).size, 512);
+        rc::DemandHistogram after;
+        after.add(500, 1000 - weight);
+        after.add(4000, weight);
+        int frames = 1;
+        for (recent.add(after); controller.update(recent.sum()).size == 512; recent.add(after)) {
+            ASSERT_LT(++frames, kFrames);
+        }
+        EXPECT_EQ(controller.size(), 4096);
+        // Heard in the frame in which its weight is more than what the percentile leaves out.
+        const double expected = kFrames * (1 - kPercentile) * 1000 / weight;
+        EXPECT_GE(frames, expected) << weight;
+        EXPECT_LE(frames, expected + 1) << weight;
     }
 }
 
