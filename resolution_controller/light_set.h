@@ -3,7 +3,7 @@
 //
 //     LightSet lights(settingsOfEachLight);
 //     // every frame:
-//     for (...) data[i] = {.kind = LightData::Kind::histogram, .histogram = &histograms[i]};
+//     for (...) data[i] = {.kind = LightData::Kind::histogram, .histogram = &recent[i].sum()};
 //     const LightSummary summary = lights.update(data, decisions, {.texels = 16 << 20});
 //
 // Each light has a ResolutionController. Where the sizes that these ask for fit into the budget,

@@ -6,8 +6,10 @@
 //
 //     namespace rc = resolution_controller;
 //     rc::ResolutionController controller({.slope = slope, .driverMaxSize = maxTextureSize});
-//     // every frame: update(radiusUv) for PCF, update(histogram) for PCSS, hold() without data
-//     const rc::Decision choice = controller.update(histogram);
+//     rc::RecentDemand recent(16);  // as many frames as ask every pixel once
+//     // every frame: what the GPU has finished counting; for PCF only update(radiusUv)
+//     if (reading) recent.add(*reading);
+//     const rc::Decision choice = controller.update(recent.sum());
 //     if (choice.changed) resizeShadowMap(choice.size);
 //     setFilterRadius(std::max(radiusUv, choice.minRadiusUv));
 //     setTexelConstants(choice.map);
