@@ -108,9 +108,11 @@ std::vector<PaperFigure> variance() {
          .setting = "Spheres whose shadows overlap, visibility times 4: white is a quarter of the "
                     "light or more. Umbra: where PCF on a map of 4096 x 4096 is dark all around.",
          .finding = "As in the paper: where a shadow's edge lies inside another shadow, variance "
-                    "maps let light through; PCF leaves none in the umbra; the white dots on the "
-                    "spheres lie at the border of what faces the light. The paper shows a car, "
-                    "ours has spheres as in Fig. 3 of Gumbau et al."},
+                    "maps let light through: the lines across the shadows, where two of them meet. "
+                    "PCF leaves none there; the white dots on its spheres lie at the border of "
+                    "what faces the light. The number is of pixels 8 and more from any light, "
+                    "which the lines do not reach. The paper shows a car, ours has spheres as in "
+                    "Fig. 3 of Gumbau et al."},
         {.paper = "variance",
          .name = "variance-precision",
          .title = "Section 5.3: 16 against 32 bits",
