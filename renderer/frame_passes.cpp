@@ -135,8 +135,11 @@ void Renderer::render(const FrameSettings& settings, PassClock* clock) {
         smallest = std::min({smallest, map.resolution, other});
         largest = std::max({largest, map.resolution, other});
     }
-    // Maps of several sizes are filtered in the same textures.
-    filterSpare_ = smallest == largest ? reservedEdge_ : std::max(largest, reservedEdge_);
+    // All maps are filtered in the same textures; those of one size differ in their guard bands.
+    const bool several = views_.size() > 1 || smallest != largest;
+    const int spare = several ? std::max(largest, reservedEdge_) : reservedEdge_;
+    if (spare < filterSpare_) mapFilter_.release();
+    filterSpare_ = spare;
     lastTechnique_ = &technique;
     shadows_.resize(views_.size());
     while (shadowBlocks_.size() < views_.size())

@@ -57,6 +57,11 @@ bool isSeparable(Prefilter prefilter) {
            prefilter == Prefilter::minMaxMean;
 }
 
+/// Rows go into the second one, columns back.
+bool hasTwoTextures(Prefilter prefilter) {
+    return isSeparable(prefilter) || prefilter == Prefilter::sums;
+}
+
 ShaderDefine prefilterDefine(Prefilter prefilter) {
     return {"PREFILTER", std::to_string(static_cast<int>(prefilter))};
 }
@@ -134,15 +139,17 @@ const Program& MapFilter::lineProgram(const Technique& technique, GLuint strip, 
 
 void MapFilter::ensureTextures(const Technique& technique, int edge, int layers, bool keepLarger) {
     const bool fits = keepLarger ? textureEdge_ >= edge : textureEdge_ == edge;
-    if (fits && technique.format == format_ && technique.prefilter == prefilter_ &&
-        layers == layers_)
+    // The maps of a frame may differ in their layers.
+    const bool fitsLayers =
+        layers == layers_ || (!technique.termsParameter.empty() && layers < layers_);
+    if (fits && fitsLayers && technique.format == format_ && technique.prefilter == prefilter_)
         return;
     release();  // two sets at once may be more than there is room for
     const bool chain = technique.prefilter == Prefilter::mips;
     const int levels = chain ? 1 + static_cast<int>(std::log2(edge)) : 1;
     textures_[0] =
         makeTextureArray(glFormat(technique.format), edge, edge, layers, levels, "filtered map");
-    if (!chain)
+    if (hasTwoTextures(technique.prefilter))
         textures_[1] =
             makeTextureArray(glFormat(technique.format), edge, edge, layers, 1, "filtered rows");
     format_ = technique.format;
@@ -160,7 +167,8 @@ void MapFilter::release() {
 
 std::size_t MapFilter::bytes() const {
     std::size_t texels = 0;
-    if (prefilter_ != Prefilter::mips) texels = 2 * area(textureEdge_);
+    if (prefilter_ != Prefilter::mips)
+        texels = (hasTwoTextures(prefilter_) ? 2 : 1) * area(textureEdge_);
     for (int edge = textureEdge_; prefilter_ == Prefilter::mips && edge > 0; edge /= 2)
         texels += area(edge);
     return texels * static_cast<std::size_t>(layers_) *
@@ -176,7 +184,7 @@ void MapFilter::bind(GLuint source, std::size_t target, int targetLevel) const {
 void MapFilter::dispatch(GLuint source, std::size_t target, int targetLevel, GLuint groupsX,
                          GLuint groupsY) const {
     bind(source, target, targetLevel);
-    glDispatchCompute(groupsX, groupsY, static_cast<GLuint>(layers_));
+    glDispatchCompute(groupsX, groupsY, static_cast<GLuint>(usedLayers_));
     waitForTexels();
 }
 
@@ -194,12 +202,14 @@ void MapFilter::run(const Technique& technique, const ParameterValues& parameter
     usedLevels_ = 1;
     const int edge = filteredEdge(shadow);
     const int spare = std::max(spareN - static_cast<int>(shadow.map.x), 0);
-    ensureTextures(technique, edge + spare, technique.mapLayers(parameters), spareN > 0);
+    const int layers = technique.mapLayers(parameters);
+    ensureTextures(technique, edge + spare, layers, spareN > 0);
     usedEdge_ = edge;
+    usedLayers_ = layers;
     const float spread = lookupSpreadTexels(technique, parameters, shadow.prefilter);
     if (seen != nullptr && isSeparable(technique.prefilter) &&
-        !FilterTiles::costsMoreThanItSaves(shadow, layers_, seen->pixels, spread))
-        tiles_.find(shadow, layers_, *seen, spread);
+        !FilterTiles::costsMoreThanItSaves(shadow, layers, seen->pixels, spread))
+        tiles_.find(shadow, layers, *seen, spread);
     else
         tiles_.forget();
     waitForTexels();  // another map's lookup may still read them
@@ -281,14 +291,14 @@ FilteredTexels MapFilter::read() const {
     for (int level = 0; level < usedLevels_; ++level) {
         const int edge = usedEdge_ >> level;
         const std::size_t first = all.texels.size();
-        const std::size_t texels = area(edge) * static_cast<std::size_t>(layers_);
+        const std::size_t texels = area(edge) * static_cast<std::size_t>(usedLayers_);
         if (summed)
             all.sums.resize(texels);
         else
             all.texels.resize(first + texels);
         const int rows = std::clamp(kMostTexels / edge, 1, edge);
         std::size_t done = 0;
-        for (int layer = 0; layer < layers_; ++layer)
+        for (int layer = 0; layer < usedLayers_; ++layer)
             for (int row = 0; row < edge; row += rows) {
                 const int height = std::min(rows, edge - row);
                 const std::size_t count =

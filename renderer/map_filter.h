@@ -39,7 +39,7 @@ class MapFilter {
     /// Filters the N x N depths in the corner of `depths`, which has several samples where the
     /// technique's parameters say so. `shadow` has to be bound as the shadow
     /// block. `spareN`: textures are at least as large as for that N, so that smaller maps need no
-    /// new ones. With `seen` a separable kernel may leave out what that does not look up. Throws
+    /// new ones; nor does a map of fewer layers, where the technique has layers. With `seen` a separable kernel may leave out what that does not look up. Throws
     /// std::runtime_error where the driver has no room.
     void run(const Technique& technique, const ParameterValues& parameters,
              const f32::ShadowConstants& shadow, const Texture& depths, int spareN,
@@ -80,6 +80,7 @@ class MapFilter {
     int textureEdge_ = 0;
     int layers_ = 1;
     int usedEdge_ = 0;
+    int usedLayers_ = 1;
     int usedLevels_ = 1;
     std::array<Texture, 2> textures_;
 };
