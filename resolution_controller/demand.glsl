@@ -65,8 +65,8 @@ float stairwellDemand(StairwellDemandRule rule, float radiusUv, float footprintU
 }
 
 // How much of a shadow's edge the point stands for, in 64ths of a pixel: what its demand counts. A
-// point in a penumbra forty pixels across, as it is shown, stands for a fortieth of a pixel of edge.
-// 1 where radius or footprint cannot be used.
+// point in a penumbra forty pixels across, as it is shown, stands for a fortieth of a pixel of
+// edge. 1 where radius or footprint cannot be used.
 uint stairwellDemandWeight(float shownRadiusUv, float footprintUv) {
     if (!stairwellPositiveAndFinite(footprintUv)) return 1u;
     if (!(shownRadiusUv >= 0.0f && shownRadiusUv <= kStairwellLargest)) return 1u;

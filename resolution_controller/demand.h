@@ -148,18 +148,18 @@ static_assert(sizeof(DemandHistogram) == 65 * sizeof(std::uint32_t));
 /// The histograms of the last frames together. Where a frame asks a share of its pixels, others
 /// each time, its own histogram leaves the percentile to the few pixels that happened to be asked,
 /// and since sizes rise at once the largest of such guesses would stand. As many frames as it takes
-/// to ask every pixel once say the same in every frame of a still view as long as no reading is
-/// lost; where a ring of read-backs skips one that is not finished, the pixels it asked are missing
-/// until their turn comes again.
+/// to ask every pixel once say the same in every frame of a still view as long as every reading is
+/// added; where a ring of read-backs overwrites or skips one, the pixels it asked are missing until
+/// their turn comes again.
 ///
 /// What is new is heard once it has (1 - percentile) of the sum's weight: an edge with a share s of
 /// the weight after about frames x (1 - percentile) / s frames. With 16 frames and .98, an edge of
 /// 5 % after 7 frames, one of a third or more in the next.
 ///
-///     RecentDemand recent(16);              // once for each light
-///     if (reading) recent.add(*reading);    // every frame
+///     RecentDemand recent(16);  // once for each light
+///     while (reading = ...) recent.add(*reading);  // every frame: all that the GPU has finished
 ///     controller.update(recent.sum());
-///     recent.clear();                       // at a camera cut; then add nothing drawn before it
+///     recent.clear();  // at a camera cut; then add nothing drawn before it
 class RecentDemand {
   public:
     static constexpr int kMostFrames = 64;
@@ -170,11 +170,13 @@ class RecentDemand {
 
     constexpr int frames() const noexcept { return frames_; }
 
+    /// The sum with the newest frame's histogram in place of the oldest's. `newest` may be sum().
     constexpr const DemandHistogram& add(const DemandHistogram& newest) noexcept {
         DemandHistogram& oldest = last_[static_cast<std::size_t>(next_)];
-        sum_ += newest;
+        const DemandHistogram added = newest;  // which changes with the sum where it is the sum
+        sum_ += added;
         sum_ -= oldest;
-        oldest = newest;
+        oldest = added;
         next_ = (next_ + 1) % frames_;
         return sum_;
     }

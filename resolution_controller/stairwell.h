@@ -165,7 +165,7 @@ enum { STAIRWELL_MOST_RECENT = 64 };
  *
  *     stairwell_recent_init(&recent, sizeof recent, 16);
  *     ... every frame:
- *     if (reading) stairwell_recent_add(&recent, reading);
+ *     while (reading = ...) stairwell_recent_add(&recent, reading);  all that the GPU has finished
  *     light.histogram = &recent.sum;
  *     ... at a camera cut, and then add nothing drawn before it:
  *     stairwell_recent_clear(&recent);
@@ -183,7 +183,8 @@ typedef struct stairwell_recent {
 /* Empty. `size` is sizeof(stairwell_recent). STAIRWELL_BAD_VALUE: not so many frames. */
 stairwell_status stairwell_recent_init(stairwell_recent* recent, size_t size,
                                        int32_t frames) STAIRWELL_NOEXCEPT;
-/* Adds the newest frame's histogram to the sum and takes the oldest's out of it. */
+/* Adds the newest frame's histogram to the sum and takes the oldest's out of it. `newest` may be
+ * &recent->sum. */
 stairwell_status stairwell_recent_add(stairwell_recent* recent,
                                       const stairwell_histogram* newest) STAIRWELL_NOEXCEPT;
 /* Empty again, for as many frames. */

@@ -138,8 +138,10 @@ class Recent {
     const stairwell_histogram& add(Bytes& in, const stairwell_histogram& newest) {
         if (in.below(16) == 0) spoil(in);
         if (in.below(16) == 0 && stairwell_recent_clear(&c_) == STAIRWELL_OK) cpp_.clear();
-        if (stairwell_recent_add(&c_, &newest) == STAIRWELL_OK) {
-            cpp_.add(std::bit_cast<resolution_controller::DemandHistogram>(newest));
+        const bool itself = in.below(8) == 0;
+        if (stairwell_recent_add(&c_, itself ? &c_.sum : &newest) == STAIRWELL_OK) {
+            cpp_.add(itself ? cpp_.sum()
+                            : std::bit_cast<resolution_controller::DemandHistogram>(newest));
         }
         fuzz::require(
             spoilt_ || std::bit_cast<resolution_controller::DemandHistogram>(c_.sum) == cpp_.sum(),

@@ -123,15 +123,24 @@ TEST(CInterface, AddsRecentFramesUpAsTheClassDoes) {
 }
 
 TEST(CInterface, AddsASumToItself) {
-    stairwell_recent recent;
-    ASSERT_EQ(stairwell_recent_init(&recent, sizeof recent, 2), STAIRWELL_OK);
-    stairwell_histogram one{};
-    one.counts[7] = 1;
-    stairwell_recent_add(&recent, &one);
-    EXPECT_EQ(stairwell_recent_add(&recent, &recent.sum), STAIRWELL_OK);
-    EXPECT_EQ(recent.sum.counts[7], 2u);
-    EXPECT_EQ(stairwell_recent_add(&recent, &recent.last[1]), STAIRWELL_OK);
-    EXPECT_EQ(recent.sum.counts[7], 2u) << "the last two, of one each";
+    for (int frames = 1; frames <= 3; ++frames) {
+        stairwell_recent recent;
+        ASSERT_EQ(stairwell_recent_init(&recent, sizeof recent, frames), STAIRWELL_OK);
+        rc::RecentDemand expected(frames);
+        stairwell_histogram one{};
+        one.counts[7] = 1;
+        one.rejected = 2;
+        for (int i = 0; i < 5; ++i) {
+            stairwell_recent_add(&recent, &one);
+            expected.add(inCpp(one));
+            const stairwell_histogram sum = recent.sum;
+            EXPECT_EQ(stairwell_recent_add(&recent, &recent.sum), STAIRWELL_OK);
+            EXPECT_EQ(inCpp(recent.sum), expected.add(inCpp(sum))) << frames << ' ' << i;
+            const stairwell_histogram oldest = recent.last[recent.next];
+            EXPECT_EQ(stairwell_recent_add(&recent, &recent.last[recent.next]), STAIRWELL_OK);
+            EXPECT_EQ(inCpp(recent.sum), expected.add(inCpp(oldest))) << frames << ' ' << i;
+        }
+    }
 }
 
 TEST(CInterface, RefusesANumberOfRecentFramesThatItCannotKeep) {

@@ -222,6 +222,21 @@ TEST(RecentDemand, IsTheSumOfTheLastFrames) {
     }
 }
 
+TEST(RecentDemand, AddsItsOwnSumAsAnyOther) {
+    for (const int frames : {1, 2, 3, 16}) {
+        rc::RecentDemand recent(frames), expected(frames);
+        for (int i = 0; i < 3 * frames; ++i) {
+            rc::DemandHistogram newest;
+            newest.add(std::exp2(static_cast<float>(i % 12)), static_cast<std::uint32_t>(1 + i));
+            newest.add(kNan, static_cast<std::uint32_t>(i));
+            recent.add(newest);
+            expected.add(newest);
+            const rc::DemandHistogram sum = expected.sum();
+            EXPECT_EQ(recent.add(recent.sum()), expected.add(sum)) << frames << ' ' << i;
+        }
+    }
+}
+
 TEST(RecentDemand, HearsAnEdgeAfterTheFramesThatItsShareSays) {
     constexpr int kFrames = 16;
     constexpr double kPercentile = 0.98;
