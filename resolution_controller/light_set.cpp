@@ -9,22 +9,6 @@
 namespace resolution_controller {
 namespace {
 
-bool isHeld(Reason reason) noexcept {
-    switch (reason) {
-        case Reason::heldWithoutData:
-        case Reason::heldEmptyHistogram:
-        case Reason::heldRejectedDemand:
-        case Reason::heldBadRadius:
-        case Reason::heldBadSettings:
-        case Reason::heldBadSlope:
-        case Reason::heldOldView:
-        case Reason::switchedOff:
-            return true;
-        default:
-            return false;
-    }
-}
-
 Decision decide(ResolutionController& controller, const LightData& data,
                 const Frame& frame) noexcept {
     switch (data.kind) {

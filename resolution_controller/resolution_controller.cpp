@@ -203,6 +203,22 @@ const char* text(Reason reason) noexcept {
     return "unknown";
 }
 
+bool isHeld(Reason reason) noexcept {
+    switch (reason) {
+        case Reason::heldWithoutData:
+        case Reason::heldEmptyHistogram:
+        case Reason::heldRejectedDemand:
+        case Reason::heldBadRadius:
+        case Reason::heldBadSettings:
+        case Reason::heldBadSlope:
+        case Reason::heldOldView:
+        case Reason::switchedOff:
+            return true;
+        default:
+            return false;
+    }
+}
+
 ResolutionController::ResolutionController(const Settings& settings) : settings_(settings) {
     if (const std::string problem = validate(settings); !problem.empty()) {
         throw std::invalid_argument("resolution controller: " + problem);

@@ -143,6 +143,8 @@ inline constexpr int kReasons = 17;
 
 /// A few words for a log or an overlay.
 const char* text(Reason reason) noexcept;
+/// Whether the decision is the last one again, since there was nothing to go by.
+bool isHeld(Reason reason) noexcept;
 
 struct Decision {
     std::int32_t size = 0;          ///< edge of the map for this frame, texels

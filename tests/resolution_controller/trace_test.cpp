@@ -3,8 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "tests/resolution_controller/counting_new.h"
@@ -130,6 +132,54 @@ TEST(Trace, WritingAllocatesNothing) {
     EXPECT_EQ(allocationCount(), before);
     EXPECT_TRUE(began);
     EXPECT_EQ(r.writer.frames(), 100u);
+}
+
+constexpr std::size_t kMinorAt = 10;  // in the header, after name and major version
+
+/// Another value in place of a trace's last number: the least radius of its last decision.
+std::vector<std::byte> endingWith(double minRadiusUv, std::span<const std::byte> trace,
+                                  unsigned char minor) {
+    std::vector<std::byte> bytes(trace.begin(), trace.end());
+    bytes.at(kMinorAt) = std::byte{minor};
+    const auto bits = std::bit_cast<std::uint64_t>(minRadiusUv);
+    for (std::size_t i = 0; i < sizeof bits; ++i)
+        bytes[bytes.size() - sizeof bits + i] = static_cast<std::byte>(bits >> (8 * i));
+    return bytes;
+}
+
+// Before 1.1 a held size was enlarged by the slope that its data came with.
+TEST(Trace, ReplaysOlderVersionsByTheRulesOfTheirTime) {
+    const rc::Settings oldSlope{.slope = {.c = 3}, .maxSize = 512};
+    const rc::Settings newSlope{.slope = {.c = 6}, .maxSize = 512};
+    for (const bool beforeTheTrace : {false, true}) {
+        rc::LightSet lights(std::vector{oldSlope});
+        std::vector<std::byte> buffer(1 << 16);
+        rc::TraceWriter writer(buffer);
+        std::vector<rc::LightData> data{{.kind = rc::LightData::Kind::radius, .radiusUv = 0.0001}};
+        std::vector<rc::Decision> decisions(1);
+        writer.begin(lights);
+        const auto next = [&] {
+            lights.update(data, decisions);
+            writer.frame(data, {}, decisions);
+        };
+        next();
+        ASSERT_EQ(decisions[0].minRadiusUv, 3.0 / 512);
+        lights.reconfigure(0, newSlope);
+        writer.reconfigured(0, newSlope);
+        if (beforeTheTrace) writer.begin(lights);
+        data[0] = {};
+        next();
+        ASSERT_EQ(decisions[0].minRadiusUv, 6.0 / 512);
+        const auto problem = [&](double least, unsigned char minor) {
+            return rc::replay(endingWith(least, writer.bytes(), minor)).problem;
+        };
+        EXPECT_EQ(problem(3.0 / 512, 0), "");
+        EXPECT_EQ(problem(6.0 / 512, 1), "");
+        EXPECT_THAT(problem(6.0 / 512, 0), HasSubstr("light 0: recorded 512 (held: no data"));
+        EXPECT_THAT(problem(3.0 / 512, 1), HasSubstr("light 0: recorded 512 (held: no data"));
+        EXPECT_THAT(problem(6.0 / 512, 2),
+                    HasSubstr("trace, byte 16: minor version is 2: must be at most 1"));
+    }
 }
 
 TEST(Trace, RefusesWhatIsNone) {
