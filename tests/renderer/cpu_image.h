@@ -63,7 +63,8 @@ inline renderer::FloatImage cpuImage(renderer::Renderer& frame,
 /// of filtered maps are steep at depths that are nearly the mean, and steps where the kernel finds
 /// one depth. MSM's equations are so badly conditioned that single precision is off by up to .0099
 /// (docs/results/technique-errors.md), here on either side: many pixels of a terrain at grazing
-/// light are beyond .001.
+/// light are beyond .001. PCSS's radius is as exact as the gap to its blockers, which at a contact
+/// is the difference of depths that are nearly alike: single precision is off by up to .0009.
 inline ImageLimits limitsAgainstCpu(const renderer::Technique& technique, double texels) {
     const bool filtered = technique.prefilter != renderer::Prefilter::none;
     const double kernelTexel = 1.0 / (std::numbers::pi * texels * texels + 1e-9);
@@ -71,10 +72,11 @@ inline ImageLimits limitsAgainstCpu(const renderer::Technique& technique, double
                             : technique.name == "pcf_disc" ? std::min(1.0, kernelTexel)
                                                            : std::clamp(kernelTexel, 1.0 / 16, 1.0);
     const bool moments = technique.name.starts_with("msm");
+    const bool gaps = technique.name == "pcss";
     return {.most = 2 * oneTexel + 1e-4,
-            .often = moments    ? 2 * .0099
-                     : filtered ? 1e-3
-                                : 1e-4,
+            .often = moments            ? 2 * .0099
+                     : filtered || gaps ? 1e-3
+                                        : 1e-4,
             .shareBeyondOften = 0.002};
 }
 

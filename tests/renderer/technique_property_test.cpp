@@ -320,4 +320,46 @@ TEST(TechniqueProperty, SteepPlanesDoNotShadowThemselvesUnderCompares) {
     }
 }
 
+// A hollow mesh or rolling ground: along a crease the texel that holds a receiver may have its
+// centre on the next facet, nearer to the light than the receiver's plane. Slopes that differ by up
+// to half of the lesser are the mesh's, not an occluder.
+TEST(TechniqueProperty, FacetsOfHollowSurfacesDoNotShadowEachOther) {
+    for (const char* name : {"hard", "pcss"}) {
+        const Technique& technique = renderer::findTechnique(name);
+        const auto check = [&]<class Real>(Storage storage) {
+            Random random(13);
+            for (int trial = 0; trial < kMaps; ++trial) {
+                const int n = random.whole(8, 64);
+                const double turn = random(0, 6.2832);
+                const glm::dvec2 slope =
+                    random(0.1, 0.6) * glm::dvec2(std::cos(turn), std::sin(turn));
+                const double most = 0.5 * (std::abs(slope.x) + std::abs(slope.y)) / 1.5;
+                const double share = random();
+                const glm::dvec2 change(most * share * (random() < 0.5 ? 1 : -1),
+                                        most * (1 - share) * (random() < 0.5 ? 1 : -1));
+                const glm::dvec2 crease(0.5 + random(-0.5, 0.5) / n, 0.5 + random(-0.5, 0.5) / n);
+                const auto gradientAt = [&](glm::dvec2 uv) {
+                    return glm::dot(change, uv - crease) < 0 ? slope + change : slope;
+                };
+                const auto depth = [&](double u, double v) {
+                    const glm::dvec2 uv(u, v);
+                    return 0.5 + glm::dot(slope, uv - crease) +
+                           std::min(glm::dot(change, uv - crease), 0.0);
+                };
+                const Map map(n, depth);
+                // A penumbra so narrow that PCSS, too, comes down to one texel.
+                const CpuTechnique<Real> filter(technique, map, constantsFor(technique, n, 0.002),
+                                                storage);
+                for (int i = 0; i < kReceivers; ++i) {
+                    const glm::dvec2 uv(random(0.2, 0.8), random(0.2, 0.8));
+                    ASSERT_EQ(filter(receiverAt(uv.x, uv.y, depth(uv.x, uv.y), gradientAt(uv))), 1)
+                        << name << " N " << n << " at " << uv.x << ", " << uv.y;
+                }
+            }
+        };
+        check.template operator()<double>(Storage::exact);
+        check.template operator()<float>(Storage::asFormat);
+    }
+}
+
 }  // namespace
