@@ -39,8 +39,9 @@ class MapFilter {
     /// Filters the N x N depths in the corner of `depths`, which has several samples where the
     /// technique's parameters say so. `shadow` has to be bound as the shadow
     /// block. `spareN`: textures are at least as large as for that N, so that smaller maps need no
-    /// new ones; nor does a map of fewer layers, where the technique has layers. With `seen` a separable kernel may leave out what that does not look up. Throws
-    /// std::runtime_error where the driver has no room.
+    /// new ones; nor does a map of fewer layers, where the technique has layers. With `seen` a
+    /// separable kernel may leave out what that does not look up. Throws std::runtime_error where
+    /// the driver has no room.
     void run(const Technique& technique, const ParameterValues& parameters,
              const f32::ShadowConstants& shadow, const Texture& depths, int spareN,
              const VisibleSurfaces* seen = nullptr);

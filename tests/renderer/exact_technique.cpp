@@ -54,22 +54,6 @@ Wide boxReach(const Constants& constants) {
     return static_cast<Wide>(constants.prefilter.x) * std::numbers::sqrt3_v<Wide>;
 }
 
-struct Distribution {
-    std::vector<Wide> depths, weights;
-
-    template <class Value>
-    Wide mean(const Value& value) const {
-        Wide sum = 0;
-        for (std::size_t i = 0; i < depths.size(); ++i) sum += weights[i] * value(depths[i]);
-        return sum;
-    }
-    template <class Value>
-    Wide variance(const Value& value) const {
-        const Wide middle = mean(value);
-        return mean([&](Wide z) { return (value(z) - middle) * (value(z) - middle); });
-    }
-};
-
 /// The depth of the caster in a texel; nothing is in the way outside the map.
 Wide casterAt(const Situation& s, int column, int row) {
     return s.inside(column, row) ? caster(s.stored(column, row)) : 1;
@@ -115,6 +99,33 @@ void nearestFour(Wide x, Wide y, const Visit& visit) {
                   (1 - std::abs(x - 0.5L - column - i)) * (1 - std::abs(y - 0.5L - row - j)));
 }
 
+/// Between texels, the boxes around the four nearest ones.
+Distribution underTheBoxes(const Situation& s, Wide reach, Wide x, Wide y) {
+    Distribution all;
+    nearestFour(x, y, [&](int column, int row, Wide weight) {
+        if (weight > 0) add(all, underTheBox(s, reach, column, row), weight);
+    });
+    return all;
+}
+
+/// Of the box around the place itself, the outermost texels by the share of them that it covers;
+/// no narrower than a texel.
+Distribution underTheWidth(const Situation& s, Wide reach, Wide x, Wide y) {
+    const Wide half = std::max(reach, 0.5L);
+    const auto share = [&](int i, Wide centre) {
+        return std::max(std::min(i + 1.0L, centre + half) - std::max(i + 0.0L, centre - half),
+                        0.0L) /
+               (2 * half);
+    };
+    Distribution all;
+    for (int j = static_cast<int>(std::floor(y - half)); j < y + half; ++j)
+        for (int i = static_cast<int>(std::floor(x - half)); i < x + half; ++i) {
+            all.depths.push_back(casterAt(s, i, j));
+            all.weights.push_back(share(i, x) * share(j, y));
+        }
+    return all;
+}
+
 /// Of the mip level whose texels are as large as the radius, between the levels and texels around
 /// it. Levels are counted from the corner of the map's texture, which lies in the guard band.
 Distribution underTheMips(const Situation& s, Wide radiusUv) {
@@ -126,8 +137,9 @@ Distribution underTheMips(const Situation& s, Wide radiusUv) {
         const Wide share = 1 - std::abs(level - of);
         if (share <= 0) continue;
         const int size = 1 << of;
-        const Wide centre = (0.5L * s.map.edge + guard) / size;
-        nearestFour(centre, centre, [&](int column, int row, Wide weight) {
+        const Wide x = (static_cast<Wide>(s.receiver.uv.x) * s.map.edge + guard) / size;
+        const Wide y = (static_cast<Wide>(s.receiver.uv.y) * s.map.edge + guard) / size;
+        nearestFour(x, y, [&](int column, int row, Wide weight) {
             for (int j = 0; j < size; ++j)
                 for (int i = 0; i < size; ++i) {
                     all.depths.push_back(
@@ -137,6 +149,12 @@ Distribution underTheMips(const Situation& s, Wide radiusUv) {
         });
     }
     return all;
+}
+
+/// No sharper than a pixel sees; the receiver's pixel is as long as wide.
+Wide mipRadius(const Situation& s) {
+    const Wide pixel = glm::length(s.receiver.longestStep) * s.constants.kernel.z;
+    return std::max(2 * static_cast<Wide>(s.constants.prefilter.x) / s.map.edge, pixel);
 }
 
 Wide chebyshev(Wide mean, Wide variance, Wide depth) {
@@ -166,10 +184,7 @@ Wide sampledVariance(const Situation& s, Wide depth) {
         for (int column = 0; column < samples; ++column) {
             const Wide x = (2 * column + 1 - samples) * reach;
             const Wide y = (2 * row + 1 - samples) * reach;
-            Distribution all;
-            nearestFour(middle + x, middle + y, [&](int i, int j, Wide weight) {
-                add(all, underTheBox(s, reach, i, j), weight);
-            });
+            const Distribution all = underTheBoxes(s, reach, middle + x, middle + y);
             const Wide there =
                 std::min(depth + (x * s.receiver.depthGradient.x + y * s.receiver.depthGradient.y) /
                                      s.map.edge,
@@ -311,12 +326,7 @@ std::optional<Wide> filteredVisibility(const Situation& s) {
     const std::string_view file = s.technique.fileName();
     if (file == "vsm" || file == "vsm_sat") return variance(s, all, depth);
     if (file == "vsm_samples") return sampledVariance(s, depth);
-    if (file == "vsm_mip") {
-        // No sharper than a pixel sees; the receiver's pixel is as long as wide.
-        const Wide pixel = glm::length(s.receiver.longestStep) * s.constants.kernel.z;
-        const Wide radius = 2 * static_cast<Wide>(s.constants.prefilter.x) / s.map.edge;
-        return variance(s, underTheMips(s, std::max(radius, pixel)), depth);
-    }
+    if (file == "vsm_mip") return variance(s, underTheMips(s, mipRadius(s)), depth);
     if (file == "pcss_mip")
         return varianceSoftShadow(s, depth, [&](Wide radius) { return underTheMips(s, radius); });
     if (file == "pcss_sat")
@@ -536,6 +546,25 @@ Wide gradientShadow(const Situation& s) {
 }
 
 }  // namespace
+
+Distribution depthsUnderTheKernel(const Technique& technique, const DepthMap& map,
+                                  const Receiver& receiver, const Constants& constants) {
+    const Situation s{technique, map, receiver, constants};
+    const Wide reach = boxReach(constants);
+    const Wide x = static_cast<Wide>(receiver.uv.x) * map.edge;
+    const Wide y = static_cast<Wide>(receiver.uv.y) * map.edge;
+    if (technique.prefilter == renderer::Prefilter::mips) return underTheMips(s, mipRadius(s));
+    if (technique.prefilter == renderer::Prefilter::sums) return underTheWidth(s, reach, x, y);
+    const int samples = static_cast<int>(s.parameterOr("samples", 1));
+    Distribution all;
+    for (int row = 0; row < samples; ++row)
+        for (int column = 0; column < samples; ++column)
+            add(all,
+                underTheBoxes(s, reach, x + (2 * column + 1 - samples) * reach,
+                              y + (2 * row + 1 - samples) * reach),
+                1.0L / (samples * samples));
+    return all;
+}
 
 std::optional<long double> exactVisibility(const Technique& technique, const DepthMap& map,
                                            const Receiver& receiver, const Constants& constants) {

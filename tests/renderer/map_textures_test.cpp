@@ -91,8 +91,8 @@ std::vector<float> layerCounts(const renderer::Renderer& frame, const Technique&
     const std::size_t slot = *technique.parameterSlot("layers");
     std::vector<float> counts;
     for (std::size_t view = 0; view < frame.lightViews().size(); ++view)
-        counts.push_back(frame.shadowConstants(view)
-                             .parameters[slot / 4][static_cast<glm::length_t>(slot % 4)]);
+        counts.push_back(
+            frame.shadowConstants(view).parameters[slot / 4][static_cast<glm::length_t>(slot % 4)]);
     return counts;
 }
 

@@ -14,7 +14,6 @@ SHARED_FUNCTION real4 mapTexel(real depth, real2 slope, int layer, ShadowConstan
 
 SHARED_FUNCTION real filterVisibility(sampler2DArray map, ShadowReceiver receiver, ShadowConstants shadow) {
     if (!reachesFilteredMap(receiver.uv, shadow)) return real(1.0);
-    real logMean = filteredTexel(map, receiver.uv, 0, shadow).x;
     real depth = biasedDepth(receiver, shadow, PARAMETER_bias_texels, real(0.0), PARAMETER_bias_depth);
-    return unitRange(exp(min(logMean - PARAMETER_exponent * depth, real(0.0))));
+    return filteredExponential(map, receiver.uv, PARAMETER_exponent * depth, shadow);
 }

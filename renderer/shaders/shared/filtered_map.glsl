@@ -170,20 +170,45 @@ SHARED_FUNCTION real4 filteredLine(sampler2DArray map, int2 texel, int2 axis, in
 
 // --- The lookup ---
 
-// Bilinear, in the arithmetic of the shader: the weights of texture units have 8 bits, and split texels must be joined
-// first.
-SHARED_FUNCTION real4 filteredTexel(sampler2DArray map, real2 uv, int layer, ShadowConstants shadow) {
+// The four texels around a place: columns and rows from low to high, and how far the place lies from the low ones. In
+// the arithmetic of the shader: the weights of texture units have 8 bits, and split texels must be joined first.
+struct FourTexels {
+    int2 low;
+    int2 high;
+    real2 part;
+};
+
+SHARED_FUNCTION FourTexels fourTexels(real2 uv, ShadowConstants shadow) {
     real last = real(filteredEdge(shadow) - 1);
     real2 place = uv * shadow.map.x + real2(shadow.prefilter.z - real(0.5));
     place = clamp(place, real2(0.0), real2(last));
-    int2 low = int2(int(place.x), int(place.y));
-    int2 high = int2(min(low.x + 1, int(last)), min(low.y + 1, int(last)));
-    real2 part = place - real2(real(low.x), real(low.y));
-    real4 lower = mix(unpackedTexel(texelFetch(map, int3(low.x, low.y, layer), 0), shadow),
-                      unpackedTexel(texelFetch(map, int3(high.x, low.y, layer), 0), shadow), part.x);
-    real4 upper = mix(unpackedTexel(texelFetch(map, int3(low.x, high.y, layer), 0), shadow),
-                      unpackedTexel(texelFetch(map, int3(high.x, high.y, layer), 0), shadow), part.x);
-    return mix(lower, upper, part.y);
+    FourTexels four;
+    four.low = int2(int(place.x), int(place.y));
+    four.high = int2(min(four.low.x + 1, int(last)), min(four.low.y + 1, int(last)));
+    four.part = place - real2(real(four.low.x), real(four.low.y));
+    return four;
+}
+
+// Bilinear.
+SHARED_FUNCTION real4 filteredTexel(sampler2DArray map, real2 uv, int layer, ShadowConstants shadow) {
+    FourTexels at = fourTexels(uv, shadow);
+    real4 lower = mix(unpackedTexel(texelFetch(map, int3(at.low.x, at.low.y, layer), 0), shadow),
+                      unpackedTexel(texelFetch(map, int3(at.high.x, at.low.y, layer), 0), shadow), at.part.x);
+    real4 upper = mix(unpackedTexel(texelFetch(map, int3(at.low.x, at.high.y, layer), 0), shadow),
+                      unpackedTexel(texelFetch(map, int3(at.high.x, at.high.y, layer), 0), shadow), at.part.x);
+    return mix(lower, upper, at.part.y);
+}
+
+// Of a map of logarithms: exp(stored - depth), bilinear between the exponentials, at most 1. Means of the logarithms
+// would be geometric ones, which are less. Each is cut where four of them are still finite, far above 1, and not at a
+// share of the largest: the share of a texel with nearly no weight would leave nothing of the others.
+SHARED_FUNCTION real filteredExponential(sampler2DArray map, real2 uv, real depth, ShadowConstants shadow) {
+    FourTexels at = fourTexels(uv, shadow);
+    real4 stored = real4(
+        texelFetch(map, int3(at.low.x, at.low.y, 0), 0).x, texelFetch(map, int3(at.high.x, at.low.y, 0), 0).x,
+        texelFetch(map, int3(at.low.x, at.high.y, 0), 0).x, texelFetch(map, int3(at.high.x, at.high.y, 0), 0).x);
+    real4 ratios = exp(min(stored - real4(depth), real4(80.0)));
+    return unitRange(mix(mix(ratios.x, ratios.y, at.part.x), mix(ratios.z, ratios.w, at.part.x), at.part.y));
 }
 
 SHARED_FUNCTION bool reachesFilteredMap(real2 uv, ShadowConstants shadow) {
