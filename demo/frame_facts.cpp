@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "demo/demand_glsl.h"
+#include "demo/gpu_demand.h"
 #include "demo/map_places.h"
 #include "renderer/demand_pass.h"
 
@@ -42,14 +43,9 @@ class DemandCounter {
         // Every pixel, as the automatic size adds them up.
         const int edge = renderer::DemandPass::cellEdge(frame_.widthPx(), frame_.heightPx());
         for (int i = 0; isNew && i < edge * edge; ++i) {
-            pass_.submit(frame_,
-                         {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster});
+            pass_.submit(frame_, gpuRule(rule));
             glFinish();
-            const auto reading = pass_.newest();
-            if (!reading) continue;
-            for (std::size_t bin = 0; bin < rc::DemandHistogram::kBins; ++bin)
-                found->second.counts[bin] += reading->counters[bin];
-            found->second.rejected += reading->counters.back();
+            while (const auto counters = pass_.next()) found->second += histogramOf(*counters);
         }
         return found->second;
     }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "demo/demand_glsl.h"
+#include "demo/gpu_demand.h"
 #include "demo/picture.h"
 
 namespace demo {
@@ -33,19 +34,6 @@ constexpr std::size_t kFramesPerTile = 8;
 constexpr int kUnseenTexels = 256;
 static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
               renderer::DetailProbe::kFineEdge);
-
-renderer::DemandRule gpuRule(const rc::Settings& sizing) {
-    const rc::DemandRule rule = rc::demandRule(sizing);
-    return {rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster};
-}
-
-rc::DemandHistogram histogramOf(const renderer::DemandPass::Reading& reading) {
-    static_assert(sizeof reading.counters == sizeof(rc::DemandHistogram));
-    rc::DemandHistogram histogram;
-    std::copy_n(reading.counters.begin(), histogram.counts.size(), histogram.counts.begin());
-    histogram.rejected = reading.counters.back();
-    return histogram;
-}
 
 ChosenResolution chosenFrom(const rc::Decision& choice, const rc::Frame& about) {
     return {.resolution = choice.size,
@@ -114,7 +102,8 @@ void ShadowRun::change(const Settings& settings) {
     const rc::Settings sizing = sizingOf(settings, info_);
     if (const std::string problem = rc::validate(sizing); !problem.empty())
         throw std::invalid_argument(problem);
-    if (settings.technique != nullptr) demand_.prepare(*settings.technique, gpuRule(sizing));
+    if (settings.technique != nullptr)
+        demand_.prepare(*settings.technique, gpuRule(rc::demandRule(sizing)));
     controller_.reconfigure(sizing);
     if (lights_)
         for (std::size_t map = 0; map < lights_->count(); ++map) {
@@ -153,7 +142,7 @@ void ShadowRun::startTrace(std::size_t bytes) {
 }
 
 renderer::DemandRule ShadowRun::demandRule() const {
-    return gpuRule(controller_.settings());
+    return gpuRule(rc::demandRule(controller_.settings()));
 }
 
 void ShadowRun::step(renderer::PassClock* clock, bool cut) {
@@ -180,6 +169,13 @@ void ShadowRun::draw(renderer::PassClock* clock, View view) {
     if (!settings_.resolution) ask(clock);
 }
 
+const rc::DemandHistogram* ShadowRun::hear(std::size_t map) {
+    const rc::DemandHistogram* recent = nullptr;
+    while (const auto counters = demand_.next(map))
+        recent = &recent_[map].add(histogramOf(*counters));
+    return recent;
+}
+
 void ShadowRun::chooseAlone(View view) {
     if (lights_) {
         controller_ = rc::ResolutionController(controller_.settings(), lights_->light(0).state());
@@ -187,12 +183,11 @@ void ShadowRun::chooseAlone(View view) {
     }
     // What joins renderer and controller (docs/engines.md shows these lines): an earlier frame's
     // demand chooses this frame's size.
-    const auto reading = demand_.newest();
-    rc::Frame about{.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels()};
-    if (reading && view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
-    if (reading) recent_[0].add(histogramOf(*reading));
+    const rc::DemandHistogram* recent = hear(0);
+    const rc::Frame about{.cameraCut = view != View::goesOn,
+                          .detailTexels = detail_.detailTexels()};
     const rc::Decision choice =
-        reading ? controller_.update(recent_[0].sum(), about) : controller_.hold(about);
+        recent ? controller_.update(*recent, about) : controller_.hold(about);
     frameSettings_.resolution = choice.size;
     frameSettings_.minRadiusUv = static_cast<float>(std::min(choice.minRadiusUv, 1.0));
     frameSettings_.fadeFrom = choice.fadeFromSize;
@@ -213,14 +208,12 @@ void ShadowRun::chooseTogether(View view) {
     for (std::size_t map = 0; map < maps; ++map) {
         rc::Frame& about = data[map].frame;
         about = {.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels(map)};
-        const auto reading = demand_.newest(map);
-        if (!reading) continue;
-        if (view != View::sameUnseen) about.dataAgeFrames = reading->ageFrames + 1;
-        const rc::DemandHistogram& demand = recent_[map].add(histogramOf(*reading));
-        unseen[map] = maps > 1 && demand.total() == 0 && demand.rejected == 0;
+        const rc::DemandHistogram* recent = hear(map);
+        if (!recent) continue;
+        unseen[map] = maps > 1 && recent->total() == 0 && recent->rejected == 0;
         if (!unseen[map]) {
             data[map].kind = rc::LightData::Kind::histogram;
-            data[map].histogram = &demand;
+            data[map].histogram = recent;
         } else if (lights_->light(map).size() > kUnseenTexels) {
             data[map].kind = rc::LightData::Kind::radius;
             data[map].radiusUv = settings_.slope.c / kUnseenTexels;
@@ -283,7 +276,7 @@ void ShadowRun::askTheRest() {
     for (std::size_t map = 0; map < frame_.lightViews().size(); ++map)
         for (int turn = 1; turn < recent_[map].frames(); ++turn) {
             glFinish();
-            if (const auto reading = demand_.newest(map)) recent_[map].add(histogramOf(*reading));
+            hear(map);
             demand_.submit(frame_, demandRule(), nullptr, map);
         }
 }

@@ -125,6 +125,10 @@ class ShadowRun {
     /// nothing was shown yet.
     enum class View { goesOn, another, sameUnseen };
     void draw(renderer::PassClock* clock, View view);
+    /// Adds all that the GPU has finished counting to what the map's recent frames asked for; their
+    /// sum, null where nothing came. What was drawn before a cut is forgotten there, so all is of
+    /// this view.
+    const resolution_controller::DemandHistogram* hear(std::size_t map);
     /// This frame's size, or sizes, from the demand of earlier ones.
     void chooseAlone(View view);
     void chooseTogether(View view);

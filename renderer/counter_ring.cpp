@@ -22,15 +22,21 @@ CounterRing::CounterRing(std::size_t counters, std::string_view label)
 }
 
 CounterRing::~CounterRing() {
-    for (Slot& slot : slots_) release(slot);
+    forget();
 }
 
-void CounterRing::release(Slot& slot) {
-    if (slot.fence != nullptr) glDeleteSync(slot.fence);
-    slot.fence = nullptr;
+void CounterRing::release() {
+    glDeleteSync(fences_[oldest()]);
+    ++returned_;
+}
+
+void CounterRing::forget() {
+    // What is still under way is written before what takes its place.
+    while (returned_ < submissions_) release();
 }
 
 void CounterRing::begin() {
+    assert(hasRoom());
     const std::uint32_t zero = 0;
     glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, counters_.name());
@@ -38,34 +44,23 @@ void CounterRing::begin() {
 
 void CounterRing::end() {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    Slot& slot = slots_[submissions_ % kFrames];
-    if (slot.fence != nullptr) ++lost_;
-    release(slot);
+    const std::size_t at = submissions_++ % kFrames;
     glCopyNamedBufferSubData(counters_.name(), ring_.name(), 0,
-                             static_cast<GLintptr>(submissions_ % kFrames * kSlotBytes),
+                             static_cast<GLintptr>(at * kSlotBytes),
                              static_cast<GLsizeiptr>(bytes_));
     glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
-    slot = {.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0), .submission = submissions_++};
+    fences_[at] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     glFlush();  // or the fence might never be passed
 }
 
-std::optional<CounterRing::Reading> CounterRing::newest() {
-    std::optional<Reading> reading;
-    for (std::uint64_t age = 0; age < kFrames && age < submissions_ && !reading; ++age) {
-        const std::size_t at = (submissions_ - 1 - age) % kFrames;
-        if (slots_[at].fence == nullptr) break;  // returned before, as were those before it
-        GLint state = GL_UNSIGNALED;
-        glGetSynciv(slots_[at].fence, GL_SYNC_STATUS, 1, nullptr, &state);
-        if (state != GL_SIGNALED) continue;
-        reading.emplace();
-        std::memcpy(reading->counters.data(), mapped_ + at * kSlotBytes, bytes_);
-        reading->age = static_cast<int>(age);
-        reading->submission = submissions_ - 1 - age;
-    }
-    if (!reading) return reading;
-    // Older ones are of no use any more.
-    for (Slot& slot : slots_)
-        if (slot.submission <= reading->submission) release(slot);
+std::optional<CounterRing::Reading> CounterRing::next() {
+    if (returned_ == submissions_) return std::nullopt;
+    GLint state = GL_UNSIGNALED;
+    glGetSynciv(fences_[oldest()], GL_SYNC_STATUS, 1, nullptr, &state);
+    if (state != GL_SIGNALED) return std::nullopt;
+    Reading reading{.counters = {}, .submission = returned_};
+    std::memcpy(reading.counters.data(), mapped_ + oldest() * kSlotBytes, bytes_);
+    release();
     return reading;
 }
 

@@ -84,39 +84,37 @@ void DemandPass::reload(const ShaderLibrary& shaders) {
     programs_ = std::move(programs);
 }
 
-void DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock* clock,
+bool DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock* clock,
                         std::size_t view) {
     const auto inputs = frame.outputs(view);
-    if (!inputs) return;
+    if (!inputs) return false;
+    while (rings_.size() <= view)
+        rings_.push_back(std::make_unique<CounterRing>(kCounters, "demand"));
+    CounterRing& ring = *rings_[view];
+    if (!ring.hasRoom()) return false;
     frame.bindConstants(view);
     if (clock != nullptr) clock->begin(Pass::demand);
     programs_.use(*inputs, rule);
-    while (answers_.size() <= view) answers_.push_back(std::make_unique<Answers>());
-    CounterRing& ring = answers_[view]->ring;
     const SparsePixels pixels = sparsePixels(frame, ring.submissions());
     glUniform3i(2, pixels.cell.x, pixels.cell.y, pixels.cell.z);
     ring.begin();
     glDispatchCompute(pixels.groupsX, pixels.groupsY, 1);
     ring.end();
     if (clock != nullptr) clock->end(Pass::demand);
+    return true;
 }
 
-std::optional<DemandPass::Reading> DemandPass::newest(std::size_t view) {
-    if (view >= answers_.size()) return std::nullopt;
-    const auto newest = answers_[view]->ring.newest();
-    if (!newest || newest->submission < answers_[view]->forgottenBefore) return std::nullopt;
-    Reading reading{.counters = {}, .ageFrames = newest->age};
-    std::copy_n(newest->counters.begin(), kCounters, reading.counters.begin());
-    return reading;
-}
-
-int DemandPass::lost() const {
-    return std::accumulate(answers_.begin(), answers_.end(), 0,
-                           [](int sum, const auto& map) { return sum + map->ring.lost(); });
+std::optional<DemandPass::Counters> DemandPass::next(std::size_t view) {
+    if (view >= rings_.size()) return std::nullopt;
+    const auto reading = rings_[view]->next();
+    if (!reading) return std::nullopt;
+    Counters counters;
+    std::copy_n(reading->counters.begin(), kCounters, counters.begin());
+    return counters;
 }
 
 void DemandPass::forget() {
-    for (const auto& map : answers_) map->forgottenBefore = map->ring.submissions();
+    for (const auto& ring : rings_) ring->forget();
 }
 
 int DemandPass::cellEdge(int widthPx, int heightPx) {

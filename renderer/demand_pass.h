@@ -6,7 +6,8 @@
 //
 //   renderer::DemandPass demand(ShaderLibrary::embedded(), demandGlsl);
 //   every frame:
-//       if (const auto reading = demand.newest()) controller.update(reading->counters ...);
+//       while (const auto counters = demand.next()) recent.add(*counters ...);
+//       controller.update(recent.sum());
 //       frame.render(settings);
 //       demand.submit(frame, rule);
 #pragma once
@@ -43,7 +44,8 @@ struct DemandRule {
 bool hasOwnRadius(const ShaderLibrary& shaders, const Technique& technique);
 
 /// Programs with shared/pixel_demand.glsl: one for the techniques with the same radius everywhere
-/// and one for each that has its own, each with and without the contrast term, made when first used.
+/// and one for each that has its own, each with and without the contrast term, made when first
+/// used.
 class PixelDemandPrograms {
   public:
     using Make = std::function<Program(const ShaderOptions&)>;
@@ -74,10 +76,7 @@ class DemandPass {
     static constexpr std::size_t kCounters = 65;  ///< 64 bins and one for what was rejected
     static constexpr std::size_t kRing = CounterRing::kFrames;
 
-    struct Reading {
-        std::array<std::uint32_t, kCounters> counters{};
-        int ageFrames = 0;  ///< submissions since: 1 for the last but one, 0 for the last
-    };
+    using Counters = std::array<std::uint32_t, kCounters>;
 
     /// Pixels along the edge of a cell, of which one is asked in each frame: the first, in frames
     /// of more than 2^19 pixels the second. So a frame of 1280 x 720 asks 25,600 pixels, which is
@@ -87,7 +86,8 @@ class DemandPass {
     static int cellEdge(int widthPx, int heightPx);
 
     /// `demandGlsl`: text that defines StairwellDemandRule, stairwellDemand(),
-    /// stairwellDemandWeight() and stairwellDemandCounter(). Throws std::runtime_error where it does not compile.
+    /// stairwellDemandWeight() and stairwellDemandCounter(). Throws std::runtime_error where it
+    /// does not compile.
     DemandPass(const ShaderLibrary& shaders, const std::string& demandGlsl);
 
     /// Takes these shaders from now on; what is under way still arrives. Throws std::runtime_error
@@ -98,32 +98,27 @@ class DemandPass {
         programs_.prepare(technique, rule);
     }
 
-    /// Counts the demand of the frame that `frame` drew last. Nothing happens before its first
-    /// frame. Which pixel of each cell is asked rotates from call to call, so that as many calls as
-    /// a cell has pixels ask every pixel once.
-    /// `view` is one of the frame's maps; only the pixels that it serves are asked.
-    void submit(const Renderer& frame, const DemandRule& rule, PassClock* clock = nullptr,
+    /// Counts the demand of the frame that `frame` drew last. Which pixel of each cell is asked
+    /// rotates from submission to submission, so that as many as a cell has pixels ask every pixel
+    /// once. False, and nothing is asked, before the first frame and where kRing submissions for
+    /// the map are under way or wait for next(): the pixels are those of the next call, and nothing
+    /// is lost. `view` is one of the frame's maps; only the pixels that it serves are asked.
+    bool submit(const Renderer& frame, const DemandRule& rule, PassClock* clock = nullptr,
                 std::size_t view = 0);
 
-    /// The newest submission for a map that the GPU has finished and that was not returned before;
-    /// absent where there is none. Never waits.
-    std::optional<Reading> newest(std::size_t view = 0);
+    /// Every submission for a map comes back once, in the order in which they were made; absent
+    /// where the GPU has not finished the next one, or there is none. Never waits.
+    std::optional<Counters> next(std::size_t view = 0);
 
-    /// Of the submissions so far: newest() returns none of them any more. After a camera cut.
+    /// Of the submissions so far: next() returns none of them any more. After a camera cut.
     void forget();
-
-    int lost() const;  ///< see CounterRing
 
   private:
     PixelDemandPrograms makePrograms(const ShaderLibrary& shaders) const;
 
     std::string demandGlsl_;
     PixelDemandPrograms programs_;
-    struct Answers {
-        CounterRing ring = {kCounters, "demand"};
-        std::uint64_t forgottenBefore = 0;  // a submission
-    };
-    std::vector<std::unique_ptr<Answers>> answers_;  // one for each map
+    std::vector<std::unique_ptr<CounterRing>> rings_;  // one for each map
 };
 
 /// Of a pass that asks one pixel of every cell, in groups of 16 x 8 cells.

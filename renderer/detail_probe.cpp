@@ -26,7 +26,7 @@ int tileOf(std::uint64_t submission) {
 
 }  // namespace
 
-int detailOf(const std::array<std::uint32_t, DemandPass::kCounters>& counters) {
+int detailOf(const DemandPass::Counters& counters) {
     constexpr std::size_t kBins = 64;
     const std::uint32_t total = std::accumulate(counters.begin(), counters.begin() + kBins, 0U);
     const std::uint32_t above = std::max(kLeastSamples, total / kTopShare);
@@ -65,6 +65,7 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     while (answers_.size() <= view) answers_.push_back(std::make_unique<Answers>());
     Answers& answers = *answers_[view];
     answers.take();
+    if (!answers.ring.hasRoom()) return;
     const int tile = tileOf(answers.ring.submissions());
     const glm::ivec2 lowest =
         glm::ivec2(tile % kTilesAlong, tile / kTilesAlong) * kTileEdge - glm::ivec2(kMargin);
@@ -98,10 +99,9 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
 }
 
 void DetailProbe::Answers::take() {
-    const auto reading = ring.newest();
-    if (!reading || reading->submission < forgottenBefore) return;
-    std::copy_n(reading->counters.begin(), DemandPass::kCounters,
-                tiles[static_cast<std::size_t>(tileOf(reading->submission))].begin());
+    while (const auto reading = ring.next())
+        std::copy_n(reading->counters.begin(), DemandPass::kCounters,
+                    tiles[static_cast<std::size_t>(tileOf(reading->submission))].begin());
 }
 
 void DetailProbe::submitAll(const Renderer& frame, const DemandRule& rule, std::size_t view) {
@@ -115,8 +115,8 @@ void DetailProbe::submitAll(const Renderer& frame, const DemandRule& rule, std::
 int DetailProbe::detailTexels(std::size_t view) {
     if (view >= answers_.size()) return 0;
     answers_[view]->take();
-    Counters all{};
-    for (const Counters& tile : answers_[view]->tiles)
+    DemandPass::Counters all{};
+    for (const DemandPass::Counters& tile : answers_[view]->tiles)
         for (std::size_t i = 0; i < all.size(); ++i) all[i] += tile[i];
     return std::min(detailOf(all), kFineEdge);
 }
@@ -124,7 +124,7 @@ int DetailProbe::detailTexels(std::size_t view) {
 void DetailProbe::forget() {
     for (const auto& answers : answers_) {
         answers->tiles = {};
-        answers->forgottenBefore = answers->ring.submissions();
+        answers->ring.forget();
     }
 }
 

@@ -41,7 +41,8 @@ class DetailProbe {
     void reload(const ShaderLibrary& shaders);
 
     /// Draws the next tile of one of the frame's maps under the light of the frame that `frame`
-    /// drew last, and asks that frame's pixels. Nothing happens before its first frame.
+    /// drew last, and asks that frame's pixels. Nothing happens before its first frame, and while
+    /// CounterRing::kFrames answers are under way: the tile is the next call's.
     void submit(const Renderer& frame, const DemandRule& rule, std::size_t view = 0);
     /// Every tile at once, and waits for the answers: for a first frame or another scene.
     void submitAll(const Renderer& frame, const DemandRule& rule, std::size_t view = 0);
@@ -54,12 +55,10 @@ class DetailProbe {
     void forget();
 
   private:
-    using Counters = std::array<std::uint32_t, DemandPass::kCounters>;
     /// Of one map.
     struct Answers {
         CounterRing ring{DemandPass::kCounters, "detail"};
-        std::array<Counters, kTiles> tiles{};
-        std::uint64_t forgottenBefore = 0;  // submissions whose answers are of no use
+        std::array<DemandPass::Counters, kTiles> tiles{};
         void take();
     };
     Program makeDetailProgram(const ShaderLibrary& shaders) const;
@@ -74,6 +73,6 @@ class DetailProbe {
 
 /// The texels that the samples ask for, from counters as demand.glsl has them: a few samples at the
 /// top are left out, since the tip of anything is narrow. 0 for too few.
-int detailOf(const std::array<std::uint32_t, DemandPass::kCounters>& counters);
+int detailOf(const DemandPass::Counters& counters);
 
 }  // namespace renderer
