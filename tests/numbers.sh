@@ -93,9 +93,6 @@ numbers_of_techniques() {
 # docs/results/automatic-size.md.
 numbers_of_sizes() {
     "$bin/size_numbers" paths || die "size_numbers failed"
-    "$bin/size_numbers" speed >"$work/speed.md" || die "size_numbers failed"
-    cat "$work/speed.md"
-    "$bin/size_numbers" means <"$work/speed.md" || die "size_numbers failed"
     "$bin/size_numbers" cost || die "size_numbers failed"
 }
 
