@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The C interface under any calls with any values: no crash, no size outside the levels, no budget
-// exceeded, no output that is not finite, what was recorded replays to the same decisions, and
-// recent frames add up as the class of C++ adds them.
+// exceeded, no output that is not finite, what was recorded replays to the same decisions, recent
+// frames add up as the class of C++ adds them, and a slope for an audience can be used.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -170,6 +170,33 @@ class Recent {
     bool spoilt_ = false;
 };
 
+/// What a point asks for, of any numbers.
+void checkPoint(Bytes& in, const stairwell_settings& settings) {
+    const auto any = [&in] { return in.take<float>(); };
+    const float footprint = stairwell_pixel_footprint(any(), any(), any(), any());
+    fuzz::require(std::isfinite(footprint) && footprint >= 0, "a footprint is a length or 0");
+    fuzz::require(stairwell_demand(&settings, any(), any(), any(), any()) >= 0,
+                  "a demand is a number of texels");
+    const std::uint32_t weight = stairwell_demand_weight(any(), any());
+    fuzz::require(weight >= 1 && weight <= 64, "a weight is 1 to 64");
+}
+
+/// A slope for an audience that describes itself, or a status.
+void checkAudience(Bytes& in, const stairwell_slope& measured) {
+    stairwell_slope asked;
+    stairwell_slope_init(&asked, sizeof asked);
+    std::uint32_t warnings = 0;
+    const stairwell_status status =
+        stairwell_slope_for(&measured, in.real(0.1), in.real(0.1), in.whole(in.below(3)),
+                            in.whole(in.below(5)), &asked, &warnings);
+    fuzz::require(status != STAIRWELL_OK || (asked.c > 0 && std::isfinite(asked.c)),
+                  "a slope can be used");
+    fuzz::require(warnings < 2 * STAIRWELL_POPULATION_UNKNOWN, "warnings are those that are named");
+    fuzz::require(stairwell_warning_text(warnings) != nullptr, "every warning has a text");
+    fuzz::require(stairwell_status_text(in.take<std::int32_t>()) != nullptr, "and every status");
+    fuzz::require(stairwell_reason_text(in.take<std::int32_t>()) != nullptr, "and every reason");
+}
+
 void check(const stairwell_decision& d) {
     using namespace resolution_controller;
     fuzz::require(levelAtLeast(d.size, LevelRatio::sqrtTwo) == d.size, "the size is a level");
@@ -202,6 +229,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto count = static_cast<std::size_t>(in.below(6));
     std::vector<stairwell_settings> settings;
     for (std::size_t i = 0; i < count; ++i) settings.push_back(settingsFrom(in));
+    for (const stairwell_settings& light : settings) {
+        checkPoint(in, light);
+        checkAudience(in, light.slope);
+    }
     stairwell_lights* lights = nullptr;
     char message[80];
     if (stairwell_create(settings.data(), count, &lights, message, sizeof message)) return 0;
