@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "records/whole_file.h"
+#include "tests/headless_gl.h"
 #include "tests/renderer/edge_scene.h"
 #include "tests/renderer/exact_disc.h"
 #include "tests/temporary_folder.h"
@@ -49,10 +50,9 @@ class Errors {
 };
 
 TEST(AreaLightTruth, OfAStraightEdgeIsTheDiscsProfile) {
-    const renderer::HeadlessContext context;
     constexpr float kTurnDeg = 20;
     const renderer::Sun sun{.azimuthDeg = 180, .elevationDeg = 90};  // overhead: a round penumbra
-    renderer::Renderer frame(context.info(), tests::edgeScene(kTurnDeg, sun), kWidth, kHeight);
+    renderer::Renderer frame(tests::gl(), tests::edgeScene(kTurnDeg, sun), kWidth, kHeight);
     frame.render({.technique = &renderer::findTechnique("hard"), .resolution = 256});
     const demo::AreaLight light{.angularRadiusDeg = 10, .raysEdge = 12};
     const demo::AreaLightTruth truth = demo::areaLightTruth(frame, light);
@@ -78,7 +78,7 @@ TEST(AreaLightTruth, OfAStraightEdgeIsTheDiscsProfile) {
 TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
     const renderer::HeadlessContext context;
     constexpr float kTurnDeg = 20;
-    renderer::Renderer frame(context.info(), tests::edgeScene(kTurnDeg, {}), kWidth, kHeight);
+    renderer::Renderer frame(tests::gl(), tests::edgeScene(kTurnDeg, {}), kWidth, kHeight);
     frame.render({.technique = &renderer::findTechnique("hard"), .resolution = 64});
     // All places are in the plate's own frame, where the edge runs along x at z = kPlateHalfWidth.
     const glm::dvec3 middle(0.2, 4, 1.7);
@@ -124,7 +124,7 @@ TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
 TEST(AreaLightTruth, IsKeptUnderTheNameOfItsContent) {
     const renderer::HeadlessContext context;
     const tests::TemporaryFolder folder;
-    renderer::Renderer frame(context.info(), tests::edgeScene(20, {}), 16, 9);
+    renderer::Renderer frame(tests::gl(), tests::edgeScene(20, {}), 16, 9);
     const auto files = [&] {
         return std::distance(std::filesystem::directory_iterator(folder.path()), {});
     };
@@ -157,7 +157,7 @@ TEST(AreaLightTruth, IsThatOfTheSunThatPcssStandsFor) {
 
 TEST(AreaLightTruth, RefusesLightsOutOfRange) {
     const renderer::HeadlessContext context;
-    renderer::Renderer frame(context.info(), tests::edgeScene(20, {}), 16, 9);
+    renderer::Renderer frame(tests::gl(), tests::edgeScene(20, {}), 16, 9);
     frame.render({.resolution = 64});
     EXPECT_THROW(demo::areaLightTruth(frame, {.angularRadiusDeg = NAN}), std::invalid_argument);
     EXPECT_THROW(demo::areaLightTruth(frame, {.angularRadiusDeg = 21}), std::invalid_argument);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Demand pass: one pixel of every cell asks for a number of texels, counted in shared memory first.
+// Demand pass: one pixel of every cell asks for a number of texels, counted in shared memory first. Few pixels lie where
+// a shadow begins: those are listed and the list is worked off, so that neither receivers are computed nor blockers
+// searched for beside pixels that ask for nothing.
 #include "shared/filters.glsl"
 #include "shared/shading.glsl"
 #include "technique"
@@ -11,20 +13,28 @@ layout(std430, binding = 0) buffer Counters { uint counters[STAIRWELL_DEMAND_COU
 
 layout(location = 2) uniform ivec3 cell;  // x, y of the pixel in its cell, z the cell's edge
 
+const uint kGroup = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
 shared uint groupCounters[STAIRWELL_DEMAND_COUNTERS];
+shared uint listed;
+shared uint list[kGroup];  // of invocations, whose pixels they are
+
+ivec2 pixelOf(uint invocation) {
+    uvec2 inGroup = uvec2(invocation % gl_WorkGroupSize.x, invocation / gl_WorkGroupSize.x);
+    return ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy + inGroup) * cell.z + cell.xy;
+}
 
 void main() {
-    for (uint i = gl_LocalInvocationIndex; i < uint(STAIRWELL_DEMAND_COUNTERS);
-         i += gl_WorkGroupSize.x * gl_WorkGroupSize.y)
+    if (gl_LocalInvocationIndex == 0u) listed = 0u;
+    for (uint i = gl_LocalInvocationIndex; i < uint(STAIRWELL_DEMAND_COUNTERS); i += kGroup)
         groupCounters[i] = 0u;
     barrier();
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * cell.z + cell.xy;
-    if (all(lessThan(pixel, ivec2(view.viewport.xy)))) {
-        PixelDemand asked = pixelDemand(pixel);
+    if (mayAsk(pixelOf(gl_LocalInvocationIndex))) list[atomicAdd(listed, 1u)] = gl_LocalInvocationIndex;
+    barrier();
+    for (uint i = gl_LocalInvocationIndex; i < listed; i += kGroup) {
+        PixelDemand asked = pixelDemand(pixelOf(list[i]));
         if (asked.texels >= 0.0) atomicAdd(groupCounters[stairwellDemandCounter(asked.texels)], asked.weight);
     }
     barrier();
-    for (uint i = gl_LocalInvocationIndex; i < uint(STAIRWELL_DEMAND_COUNTERS);
-         i += gl_WorkGroupSize.x * gl_WorkGroupSize.y)
+    for (uint i = gl_LocalInvocationIndex; i < uint(STAIRWELL_DEMAND_COUNTERS); i += kGroup)
         if (groupCounters[i] != 0u) atomicAdd(counters[i], groupCounters[i]);
 }

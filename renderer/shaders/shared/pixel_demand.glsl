@@ -54,6 +54,20 @@ struct PixelDemand {
 };
 const PixelDemand kAsksForNothing = PixelDemand(-1.0, 0u);
 
+// Whether pixelDemand() may ask for anything, by the visibilities alone.
+bool mayAsk(ivec2 pixel) {
+    ivec2 last = ivec2(view.viewport.xy) - 1;
+    if (any(greaterThan(pixel, last))) return false;
+    float visibility = texelFetch(visibilities, pixel, 0).x;
+    if (inPenumbra(visibility)) return true;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 beside = pixel + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+        float other = texelFetch(visibilities, clamp(beside, ivec2(0), last), 0).x;
+        if (abs(other - visibility) > kVisibleShare) return true;
+    }
+    return false;
+}
+
 PixelDemand pixelDemand(ivec2 pixel) {
     vec4 position = texelFetch(positions, pixel, 0);
     if (position.w == 0.0) return kAsksForNothing;
