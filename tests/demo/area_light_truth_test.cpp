@@ -76,7 +76,6 @@ TEST(AreaLightTruth, OfAStraightEdgeIsTheDiscsProfile) {
 }
 
 TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
-    const renderer::HeadlessContext context;
     constexpr float kTurnDeg = 20;
     renderer::Renderer frame(tests::gl(), tests::edgeScene(kTurnDeg, {}), kWidth, kHeight);
     frame.render({.technique = &renderer::findTechnique("hard"), .resolution = 64});
@@ -122,7 +121,6 @@ TEST(AreaLightTruth, OfAStraightEdgeUnderLampsIsKnownToo) {
 }
 
 TEST(AreaLightTruth, IsKeptUnderTheNameOfItsContent) {
-    const renderer::HeadlessContext context;
     const tests::TemporaryFolder folder;
     renderer::Renderer frame(tests::gl(), tests::edgeScene(20, {}), 16, 9);
     const auto files = [&] {
@@ -156,7 +154,6 @@ TEST(AreaLightTruth, IsThatOfTheSunThatPcssStandsFor) {
 }
 
 TEST(AreaLightTruth, RefusesLightsOutOfRange) {
-    const renderer::HeadlessContext context;
     renderer::Renderer frame(tests::gl(), tests::edgeScene(20, {}), 16, 9);
     frame.render({.resolution = 64});
     EXPECT_THROW(demo::areaLightTruth(frame, {.angularRadiusDeg = NAN}), std::invalid_argument);

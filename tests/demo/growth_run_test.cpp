@@ -7,6 +7,7 @@
 #include <set>
 
 #include "records/whole_file.h"
+#include "tests/headless_gl.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -21,9 +22,8 @@ demo::GrowthSettings tiny(const std::filesystem::path& folder) {
 }
 
 TEST(GrowthRun, MeasuresEachThingAloneAndGoesOnWhereItWasKilled) {
-    const renderer::HeadlessContext context;
     const tests::TemporaryFolder folder;
-    const auto measure = [&] { demo::measureGrowth(context.info(), tiny(folder.path()), {}); };
+    const auto measure = [&] { demo::measureGrowth(tests::gl(), tiny(folder.path()), {}); };
     measure();
     const auto file = folder.path() / "growth_times.tsv";
     const std::string whole = records::readWholeFile(file);
