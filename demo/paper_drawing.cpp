@@ -17,9 +17,6 @@ namespace {
 using renderer::ByteImage;
 using renderer::FloatImage;
 
-/// Wide enough for every figure's kernel to end in it.
-constexpr int kMarginPx = 8;
-
 FloatImage averaged(const FloatImage& image, int block) {
     if (block == 1) return image;
     FloatImage result(image.width / block, image.height / block);
@@ -155,7 +152,7 @@ std::vector<DrawnPanel> drawFigure(const renderer::GlInfo& info, const PaperFigu
                                    int shrink, int rounds) {
     const int width = figure.widthPx / shrink;
     const int height = figure.heightPx / shrink;
-    const int margin = std::max(kMarginPx / shrink, 1);
+    const int margin = std::max(figure.marginPx / shrink, 1);
     std::optional<FloatImage> truth;
     if (figure.truth)
         truth = visibilityOf(info, figure, *figure.truth, width, height, figure.truthSamples);

@@ -104,14 +104,16 @@ std::vector<PaperFigure> variance() {
          .show = PaperShow::raisedContrast,
          .truth = PaperPanel{"", "pcf_disc", {}, kTruthResolution, 0, 0.06},
          .numbers = {umbraLight},
+         .marginPx = 1,  // the lines end at light, and are few pixels long
          .panels = {{"VSM", "vsm", {}, 1024, 0, 0.06}, {"PCF", "pcf_disc", {}, 1024, 0, 0.06}},
          .setting = "Spheres whose shadows overlap, visibility times 4: white is a quarter of the "
-                    "light or more. Umbra: where PCF on a map of 4096 x 4096 is dark all around.",
+                    "light or more. Umbra: where PCF on a map of 4096 x 4096 is dark, in a pixel "
+                    "and in those around it.",
          .finding = "As in the paper: where a shadow's edge lies inside another shadow, variance "
                     "maps let light through: the lines across the shadows, where two of them meet. "
                     "PCF leaves none there; the white dots on its spheres lie at the border of "
-                    "what faces the light. The number is of pixels 8 and more from any light, "
-                    "which the lines do not reach. The paper shows a car, ours has spheres as in "
+                    "what faces the light. The number is the mean over all of the umbra, of which "
+                    "the lines are a small part. The paper shows a car, ours has spheres as in "
                     "Fig. 3 of Gumbau et al."},
         {.paper = "variance",
          .name = "variance-precision",

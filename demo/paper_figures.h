@@ -59,6 +59,9 @@ struct PaperFigure {
     /// truth; or empty.
     std::vector<std::size_t> heldAgainst = {};
     std::vector<PaperNumber> numbers;
+    /// How far from any other light numbers of dark and of lit surfaces are taken; by itself wide
+    /// enough for every figure's kernel to end in it.
+    int marginPx = 8;
     bool timed = false;
     std::vector<PaperPanel> panels;
     std::string setting;  ///< what is drawn, and the truth

@@ -154,11 +154,10 @@ TEST(Lookup, GpuAgreesWithCpuInEveryWayToReadTheMap) {
                               .radiusUv = radius});
                 const FloatImage gpu = frame.readVisibility();
                 const FloatImage cpu = tests::cpuImage(frame, technique);
-                // One tap of 16, or one texel of a filtered map's step, may fall the other way.
                 tests::expectImagesAgree(
                     std::string(technique.name) + "_" + std::string(parameter.name) + "_" +
                         std::to_string(static_cast<int>(value)),
-                    gpu, cpu, {.most = 1, .often = 1e-3, .shareBeyondOften = 0.002});
+                    gpu, cpu, tests::limitsAgainstCpu(technique, static_cast<double>(radius) * kN));
             }
         }
     EXPECT_GT(ways, 30);

@@ -141,11 +141,19 @@ class CpuTechnique {
     renderer::CpuMap<Real> map_;
 };
 
-/// At default parameters, in double, with nothing lost between the passes.
-inline CpuTechnique<double> exactly(const renderer::Technique& technique, const DepthMap& depths,
-                                    double radiusUv) {
-    return CpuTechnique<double>(technique, depths, constantsFor(technique, depths.edge, radiusUv),
-                                renderer::Storage::exact);
+/// At default parameters, with nothing lost between the passes.
+template <class Real = double>
+CpuTechnique<Real> exactly(const renderer::Technique& technique, const DepthMap& depths,
+                           double radiusUv) {
+    return CpuTechnique<Real>(technique, depths, constantsFor(technique, depths.edge, radiusUv),
+                              renderer::Storage::exact);
+}
+
+/// A claim that holds in double and in float.
+template <class Claim>
+void inBothPrecisions(const Claim& claim) {
+    claim.template operator()<double>();
+    claim.template operator()<float>();
 }
 
 }  // namespace tests

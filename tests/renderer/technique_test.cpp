@@ -24,6 +24,7 @@ using tests::constantsFor;
 using tests::CpuTechnique;
 using tests::exactly;
 using tests::halfPlane;
+using tests::inBothPrecisions;
 using tests::Random;
 using tests::receiverAt;
 using Map = tests::DepthMap;
@@ -115,7 +116,9 @@ TEST(Technique, OutsideTheMapIsLit) {
     const Map solid(8, [](double, double) { return 0.0; });
     for (const Technique& technique : renderer::techniques())
         for (const auto& [u, v] : {std::pair{-0.5, 0.5}, {1.5, 0.5}, {0.5, -0.5}, {0.5, 1.5}})
-            EXPECT_EQ(exactly(technique, solid, 0.2)(receiverAt(u, v, 0.5)), 1.0) << technique.name;
+            inBothPrecisions([&, at = receiverAt(u, v, 0.5)]<class Real> {
+                EXPECT_EQ(exactly<Real>(technique, solid, 0.2)(at), 1.0) << technique.name;
+            });
 }
 
 // A depth that is no number casts nothing; one before the light or behind the far end is clamped.
@@ -127,10 +130,13 @@ TEST(Technique, CastersOutOfRangeAreClampedOrLeftOut) {
              {std::pair{-3.0, 0.0}, {-kInfinity, 0.0}, {7.0, 1.0}, {kInfinity, 1.0}, {kNan, 1.0}}) {
             const Map map(9, [&](double u, double) { return u < 0.4 ? odd : 0.7; });
             const Map clean(9, [&](double u, double) { return u < 0.4 ? like : 0.7; });
-            for (double u = 0.1; u < 0.9; u += 0.1)
-                EXPECT_EQ(exactly(technique, map, 0.15)(receiverAt(u, 0.5, 0.6)),
-                          exactly(technique, clean, 0.15)(receiverAt(u, 0.5, 0.6)))
-                    << technique.name << " " << odd;
+            inBothPrecisions([&, odd = odd]<class Real> {
+                const auto found = exactly<Real>(technique, map, 0.15);
+                const auto expected = exactly<Real>(technique, clean, 0.15);
+                for (double u = 0.1; u < 0.9; u += 0.1)
+                    EXPECT_EQ(found(receiverAt(u, 0.5, 0.6)), expected(receiverAt(u, 0.5, 0.6)))
+                        << technique.name << " " << odd;
+            });
         }
 }
 
@@ -273,8 +279,11 @@ TEST(LayeredVariance, LayersStopTheBleedingOfTheOnesBelow) {
     int texel = 0;
     const Map map(9, [&](double, double) { return 0.1 + 0.25 * (texel++ % 3); });
     const auto receiver = receiverAt(0.5, 0.5, 0.9);
-    EXPECT_GT(exactly(renderer::findTechnique("vsm"), map, kRadiusOfAll)(receiver), 0.1);
-    EXPECT_LT(exactly(renderer::findTechnique("lvsm"), map, kRadiusOfAll)(receiver), 1e-4);
+    inBothPrecisions([&]<class Real> {
+        EXPECT_GT(exactly<Real>(renderer::findTechnique("vsm"), map, kRadiusOfAll)(receiver), 0.1);
+        EXPECT_LT(exactly<Real>(renderer::findTechnique("lvsm"), map, kRadiusOfAll)(receiver),
+                  1e-4);
+    });
 }
 
 /// A planar occluder over a parallel receiver, where every technique that promises to converge
@@ -291,11 +300,12 @@ double profile(const Technique& technique, double distance, double radius, doubl
 }
 
 /// RMS difference from the profile of a straight edge at an angle to the texels.
+template <class Real>
 double edgeError(const Technique& technique, int n, double phase, double radius, double angleRad) {
     const double s = std::sin(angleRad);
     const double c = std::cos(angleRad);
     const Map map = halfPlane(n, angleRad * 180 / std::numbers::pi, phase, kOccluder, kReceiver);
-    const auto filter = exactly(technique, map, radius);
+    const auto filter = exactly<Real>(technique, map, radius);
     double sum = 0;
     int count = 0;
     for (double along = -0.2; along < 0.2; along += 0.013)
@@ -313,18 +323,21 @@ double edgeError(const Technique& technique, int n, double phase, double radius,
 TEST(Technique, ErrorFallsAsNGrows) {
     for (const Technique& technique : renderer::techniques()) {
         if (!technique.holds(Property::errorFallsWithN)) continue;
-        double last = 1;
-        for (const int n : {48, 96, 192}) {
-            std::vector<double> errors;
-            for (const double phase : {0.03, 0.17, 0.31, 0.58, 0.72})
-                errors.push_back(edgeError(technique, n, phase, 0.05, 17 * std::numbers::pi / 180));
-            std::nth_element(errors.begin(), errors.begin() + 2, errors.end());
-            EXPECT_LT(errors[2], 0.95 * last) << technique.name << " N " << n;
-            last = errors[2];
-        }
-        // At 9.6 texels in a radius the profile is the kernel's; a technique with a threshold of
-        // its own (light bleeding, biases) would stay away from it.
-        EXPECT_LT(last, technique.soft ? 0.01 : 0.2) << technique.name;
+        inBothPrecisions([&]<class Real> {
+            double last = 1;
+            for (const int n : {48, 96, 192}) {
+                std::vector<double> errors;
+                for (const double phase : {0.03, 0.17, 0.31, 0.58, 0.72})
+                    errors.push_back(
+                        edgeError<Real>(technique, n, phase, 0.05, 17 * std::numbers::pi / 180));
+                std::nth_element(errors.begin(), errors.begin() + 2, errors.end());
+                EXPECT_LT(errors[2], 0.95 * last) << technique.name << " N " << n;
+                last = errors[2];
+            }
+            // At 9.6 texels in a radius the profile is the kernel's; a technique with a threshold
+            // of its own (light bleeding, biases) would stay away from it.
+            EXPECT_LT(last, technique.soft ? 0.01 : 0.2) << technique.name;
+        });
     }
 }
 
@@ -380,19 +393,23 @@ TEST(Technique, BiasFollowsN) {
         renderer::ParameterValues parameters = technique.standardParameters();
         parameters[*slot] = 4;
         const glm::dvec2 gradient(0.4, 0);
-        const auto litFrom = [&](int n) {  // how far behind a plane a receiver is still lit
-            const auto plane = [&](double u, double) { return 0.5 + gradient.x * (u - 0.5); };
-            const Map map(n, plane);
-            const CpuTechnique<double> filter(
-                technique, map, constantsFor(technique, n, 0.01, parameters), Storage::exact);
-            double behind = 0;
-            while (behind < 0.2 && filter(receiverAt(0.5, 0.5, 0.5 + behind, gradient)) >= 0.999)
-                behind += 1e-5;
-            return behind;
-        };
-        const double coarse = litFrom(32);
-        const double fine = litFrom(128);
-        EXPECT_GT(coarse - fine, 0.8 * 4 * gradient.x * (1.0 / 32 - 1.0 / 128)) << technique.name;
+        inBothPrecisions([&]<class Real> {
+            const auto litFrom = [&](int n) {  // how far behind a plane a receiver is still lit
+                const auto plane = [&](double u, double) { return 0.5 + gradient.x * (u - 0.5); };
+                const Map map(n, plane);
+                const CpuTechnique<Real> filter(
+                    technique, map, constantsFor(technique, n, 0.01, parameters), Storage::exact);
+                double behind = 0;
+                while (behind < 0.2 &&
+                       filter(receiverAt(0.5, 0.5, 0.5 + behind, gradient)) >= 0.999)
+                    behind += 1e-5;
+                return behind;
+            };
+            const double coarse = litFrom(32);
+            const double fine = litFrom(128);
+            EXPECT_GT(coarse - fine, 0.8 * 4 * gradient.x * (1.0 / 32 - 1.0 / 128))
+                << technique.name;
+        });
     }
 }
 
