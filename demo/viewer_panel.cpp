@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <sstream>
 
 #include "demo/map_names.h"
 #include "renderer/scene_file.h"
@@ -15,7 +16,7 @@
 namespace demo {
 namespace {
 
-constexpr float kPanelWidthEm = 24;  // in text heights
+constexpr float kPanelWidthEm = 26;  // in text heights
 constexpr double kMillion = 1e6;
 constexpr int kMostSliderLamps = 8;  // the state takes more
 // Of the budget's slider, million texels; the state takes any.
@@ -306,6 +307,21 @@ void drawPlots(const FrameHistory& history, bool several, ViewerState& state) {
     drawPasses(history, width);
 }
 
+void drawKeys() {
+    if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
+    ImGui::TableSetupColumn("key");
+    ImGui::TableSetupColumn("what it does", ImGuiTableColumnFlags_WidthStretch);
+    std::istringstream help(keyHelp());
+    for (std::string line; std::getline(help, line);) {
+        const std::size_t gap = line.find("  ");
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(line.substr(0, gap).c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextWrapped("%s", line.substr(gap + 2).c_str());
+    }
+    ImGui::EndTable();
+}
+
 }  // namespace
 
 PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
@@ -326,7 +342,7 @@ PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
     if (ImGui::CollapsingHeader("Light and paths")) drawLight(viewer, state);
     if (ImGui::CollapsingHeader("Plots", ImGuiTreeNodeFlags_DefaultOpen))
         drawPlots(history, viewer.run().maps().size() > 1, state);
-    if (ImGui::CollapsingHeader("Keys")) ImGui::TextUnformatted(keyHelp().c_str());
+    if (ImGui::CollapsingHeader("Keys")) drawKeys();
     if (ImGui::Button("Save a picture")) request.screenshot = true;
     if (!message.empty()) ImGui::TextWrapped("%s", message.c_str());
     ImGui::PopItemWidth();

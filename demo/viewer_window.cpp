@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "demo/viewer_window.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -22,6 +24,16 @@ constexpr float kDegreesPerPx = 0.3F;
 constexpr float kGrabPx = 12;          // how near to the line of the split view a drag begins
 constexpr double kSecondsAround = 24;  // a path, once round
 
+/// Of the desktop, where it is not in the window's units already.
+float textScale(GLFWwindow* window) {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window, &x, &y);
+    int width = 1, widthPx = 1, height = 1, heightPx = 1;
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &widthPx, &heightPx);
+    return widthPx > 0 ? x * static_cast<float>(width) / static_cast<float>(widthPx) : x;
+}
+
 /// Dear ImGui for one window.
 class Interface {
   public:
@@ -32,8 +44,10 @@ class Interface {
         ImGui::StyleColorsDark();
         ImGui::GetStyle().FrameRounding = ImGui::GetStyle().WindowRounding = 4;
         ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.88F;
+        const float scale = textScale(window.glfw());
+        ImGui::GetStyle().ScaleAllSizes(scale);
         if (std::filesystem::exists(kFont))
-            ImGui::GetIO().Fonts->AddFontFromFileTTF(kFont, kTextPx);
+            ImGui::GetIO().Fonts->AddFontFromFileTTF(kFont, std::round(scale * kTextPx));
         ImGui_ImplGlfw_InitForOpenGL(window.glfw(), true);
         ImGui_ImplOpenGL3_Init("#version 450 core");
     }
@@ -149,6 +163,34 @@ std::string reloadShaders(Viewer& viewer, const std::optional<std::filesystem::p
     return "shaders of " + folder->string() + " are in use";
 }
 
+/// Which map is on which side of the split view's line.
+void labelSides(const Viewer& viewer) {
+    const ViewerState& state = viewer.state();
+    if (state.view != renderer::View::split) return;
+    const bool several = viewer.run().maps().size() > 1;
+    const ChosenResolution& chosen = viewer.run().chosen();
+    const auto labelOf = [](const std::string& what, int size) {
+        return what + ": " + std::to_string(size);
+    };
+    const std::string left = !chosen.automatic ? labelOf("fixed", chosen.resolution)
+                             : several         ? "automatic sizes"
+                                               : labelOf("automatic", chosen.resolution);
+    const std::string right = labelOf("fixed", state.compareWith);
+    const float em = ImGui::GetFontSize();
+    const float line = state.splitAt * ImGui::GetIO().DisplaySize.x;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const auto label = [&](const std::string& text, float x) {
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        const float top = em, padding = 0.4F * em;
+        draw.AddRectFilled({x - padding, top - padding},
+                           {x + size.x + padding, top + size.y + padding},
+                           IM_COL32(15, 15, 15, 200), 4);
+        draw.AddText({x, top}, IM_COL32_WHITE, text.c_str());
+    };
+    label(left, line - em - ImGui::CalcTextSize(left.c_str()).x);
+    label(right, line + em);
+}
+
 }  // namespace
 
 void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOptions& options) {
@@ -184,6 +226,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         Interface::begin();
         mouse.apply(viewer, state);
         PanelRequest request;
+        labelSides(viewer);
         if (state.panel) request = drawPanel(viewer, history, message, texts, state);
         try {
             viewer.show(state);

@@ -9,13 +9,19 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export XDG_STATE_HOME=$work # the user's own last state shows in no picture
 
-window() { # NAME FRAMES ARGUMENT...
-    xvfb-run -a -s "-screen 0 1120x700x24" "$bin/shadow_demo" --width 1120 --height 700 --state "$work/$1.json" \
-        --frames "$2" --window-picture "$out/$1.png" "${@:3}"
+window() { # NAME WIDTH HEIGHT FRAMES ARGUMENT...
+    xvfb-run -a -s "-screen 0 $2x$3x24" "$bin/shadow_demo" --width "$2" --height "$3" --state "$work/$1.json" \
+        --frames "$4" --window-picture "$out/$1.png" "${@:5}"
 }
+# Near enough that the stair-steps of the small map are seen in README.
+"$bin/shadow_demo" --headless --scene yard --frames 1 --state "$work/viewer.json"
+sed -i 's/"camera_distance_m": null/"camera_distance_m": 4.8/; s/"camera_pitch_deg": null/"camera_pitch_deg": 30/' \
+    "$work/viewer.json"
+window viewer 1120 790 36 --scene yard --view split --compare 256 --split 0.66
 # Two frames more than a lamp's eight maps need to be asked 16 times each.
-window viewer 6 --scene yard --resolution 256 --view split --compare 4096
-window viewer-lamps 18 --scene lamps --budget-texels 1000000
+window viewer-lamps 1120 900 18 --scene lamps --budget-texels 1000000
 
+"$bin/shadow_demo" --headless --scene contact_posts --technique pcss --view demand --frames 1 --width 1120 --height 630 \
+    --screenshot "$out/demand.png"
 "$bin/shadow_demo" --headless --scene yard --resolution auto --width 640 --height 360 --screenshot "$out/yard-auto.png"
 "$bin/shadow_demo" --headless --scene yard --resolution 4096 --width 640 --height 360 --screenshot "$out/yard-4096.png"
