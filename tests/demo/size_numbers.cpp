@@ -75,6 +75,14 @@ void printPaths(const renderer::GlInfo& info, const char* onlyScene) {
     }
 }
 
+/// Smallest and largest, where a frame has several maps.
+std::string sizesOf(const demo::ShadowRun& run) {
+    const auto [least, most] =
+        std::ranges::minmax(run.maps(), {}, &demo::ChosenResolution::resolution);
+    const std::string smallest = std::to_string(least.resolution);
+    return run.maps().size() == 1 ? smallest : smallest + " to " + std::to_string(most.resolution);
+}
+
 void printCost(const renderer::GlInfo& info, const char* onlyScene) {
     constexpr int kFrames = 32;  // several turns of the detail probe
     std::printf(
@@ -93,8 +101,8 @@ void printCost(const renderer::GlInfo& info, const char* onlyScene) {
                 for (const demo::Spread& pass : passes) all += pass.median;
                 demand += passes[static_cast<std::size_t>(renderer::Pass::demand)].median;
             }
-            std::printf("| %s | %s | %d | %.2f | %.1f | %.1f %% |\n",
-                        std::string(scene.name).c_str(), technique, run.chosen().resolution,
+            std::printf("| %s | %s | %s | %.2f | %.1f | %.1f %% |\n",
+                        std::string(scene.name).c_str(), technique, sizesOf(run).c_str(),
                         demand / kFrames, all / kFrames, 100 * demand / all);
             std::fflush(stdout);
         }
