@@ -226,6 +226,9 @@ void drawView(const Viewer& viewer, ViewerState& state) {
             static_cast<double>(renderer::ViewPass::kMostDemand));
     if (state.view == View::penumbra)
         ImGui::TextWrapped("visibility in penumbra: violet 0, green .5, yellow 1");
+    if (state.view == View::texels)
+        ImGui::TextWrapped(
+            "yellow: borders of the map's texels, where one is wider than two pixels");
     const std::vector<std::string> maps = mapNames(viewer.frame().lightViews());
     if (maps.size() == 1 || state.view == View::picture || state.view == View::split) return;
     const std::size_t shown = std::min(static_cast<std::size_t>(state.viewMap), maps.size()) - 1;
