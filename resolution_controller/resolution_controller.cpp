@@ -413,6 +413,10 @@ Decision ResolutionController::finish(Decision d, bool mayFade) noexcept {
     d.fadeWeight = 1;
     if (s.fadeFrame <= frames) {
         d.fadeWeight = static_cast<double>(s.fadeFrame) / (frames + 1);
+        // In equal steps, as the maps: a radius that is another at once would jump as far as the
+        // size is kept from doing.
+        d.minRadiusUv = s.last.minRadiusUv +
+                        (d.minRadiusUv - s.last.minRadiusUv) / (frames + 2 - s.fadeFrame);
     } else {
         s.fadeFrame = ControllerState::kNever;
         d.fadeFromSize = d.size;

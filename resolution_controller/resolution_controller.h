@@ -8,7 +8,7 @@
 //     rc::ResolutionController controller({.slope = slope, .driverMaxSize = maxTextureSize});
 //     rc::RecentDemand recent(16);  // as many frames as ask every pixel once
 //     // every frame: what the GPU has finished counting; for PCF only update(radiusUv)
-//     if (reading) recent.add(*reading);
+//     while (reading = ...) recent.add(*reading);  // all that the GPU has finished
 //     const rc::Decision choice = controller.update(recent.sum());
 //     if (choice.changed) resizeShadowMap(choice.size);
 //     setFilterRadius(std::max(radiusUv, choice.minRadiusUv));
@@ -164,7 +164,8 @@ struct Decision {
     double artifactRatio = 0;
     /// Share of the samples, by weight, that ask for more than `size`.
     double shareAbove = 0;
-    /// c / size when a filter asks for more than `size`; else 0.
+    /// c / size when a filter asks for more than `size`; else 0. In a fade on its way there, in
+    /// equal steps.
     double minRadiusUv = 0;
     /// Viewport, kernel and bias for `size`.
     MapConstants map = {};

@@ -169,10 +169,16 @@ class Replay {
 
     /// What the rules of the trace's version make of the light's present decision.
     TracedDecision decidedAgain(std::size_t light) const {
-        TracedDecision decision(decisions_[light]);
+        const Decision& now = decisions_[light];
+        TracedDecision decision(now);
+        if (minor_ > 0) return decision;
         const TracedDecision& last = last_[light];
-        if (minor_ == 0 && isHeld(decision.reason) && decision.size == last.size) {
+        if (isHeld(now.reason) && now.size == last.size) {
             decision.minRadiusUv = last.minRadiusUv;
+        } else {
+            const bool limited = now.shareAbove > 0 || now.artifactRatio > 1;
+            decision.minRadiusUv =
+                limited ? lights_->light(light).settings().slope.c / now.size : 0;
         }
         return decision;
     }

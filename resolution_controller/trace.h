@@ -23,7 +23,7 @@
 // A reader refuses another major version, a minor one above its own and anything after which a
 // record cannot be trusted. The minor version rises where the same data come to other decisions,
 // and older ones are replayed by the rules of their time: in 1.0 a size that was held without data
-// kept its least radius when the slope became another.
+// kept its least radius when the slope became another, and no least radius was faded.
 #pragma once
 
 #include <cstddef>

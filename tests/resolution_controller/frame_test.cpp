@@ -64,6 +64,36 @@ TEST(CrossFade, RisesInEqualStepsAndEnds) {
     }
 }
 
+// A size that leaves 1 % above it enlarges their filters; so that they do not jump when the size
+// rises, the enlargement goes with the fade.
+TEST(CrossFade, TakesTheLeastRadiusAlong) {
+    rc::DemandHistogram few, many;  // of points that ask for 1000
+    few.add(350, 990);
+    few.add(1000, 10);
+    many.add(350, 900);
+    many.add(1000, 100);
+    for (const bool raised : {true, false}) {
+        rc::ResolutionController controller(
+            {.minSize = 512, .lowerAfterFrames = 1, .crossFadeFrames = 4});
+        const double enlarged = controller.settings().slope.c / 512;
+        const double first = raised ? enlarged : 0, last = raised ? 0 : enlarged;
+        const auto before = controller.update(raised ? few : many);
+        ASSERT_EQ(before.size, raised ? 512 : 1024);
+        EXPECT_EQ(before.minRadiusUv, first);
+        for (int frame = 1; frame < 5; ++frame) {
+            const auto d = controller.update(raised ? many : few);
+            EXPECT_EQ(d.size, raised ? 1024 : 512);
+            EXPECT_NEAR(d.minRadiusUv, first + (last - first) * frame / 5, 1e-12) << "rounding";
+        }
+        EXPECT_EQ(controller.update(raised ? many : few).minRadiusUv, last);
+    }
+    // Where no filter is enlarged none is in the fade.
+    rc::ResolutionController enough({.crossFadeFrames = 4});
+    enough.update(radiusFor(500));
+    for (int frame = 0; frame < 6; ++frame)
+        EXPECT_EQ(enough.update(radiusFor(4000)).minRadiusUv, 0);
+}
+
 TEST(CrossFade, StartsAnewFromTheSizeItLeaves) {
     rc::ResolutionController controller({.crossFadeFrames = 10});
     controller.update(radiusFor(500));
