@@ -139,6 +139,30 @@ TEST(LampFrame, ASpotsShadowsAreThoseOfRays) {
     EXPECT_LT(cone.share(), 0.01);
 }
 
+// Behind the camera it shines on nothing that is seen.
+TEST(LampFrame, AMapThatServesNoPixelIsNeitherDrawnNorFiltered) {
+    Lamp away = kSpot;
+    away.position = {0, 2, 0};
+    away.target = {0, 1, 40};
+    renderer::Renderer frame(gl(), ballScene({away}), 96, 64);
+    renderer::OrbitCamera camera = frame.scene().camera;
+    camera.pitchDeg = 5;
+    camera.distanceM = 3;
+    camera.target = {0, 0.5F, -3};
+    frame.setCamera(camera);
+    const renderer::FrameSettings settings{
+        .technique = &renderer::findTechnique("vsm"), .resolution = 128, .radiusUv = 0.01F};
+    frame.render(settings);
+    ASSERT_TRUE(frame.servedPixels()[1].empty());
+    const std::size_t drawn = frame.drawnTriangles();
+    EXPECT_EQ(frame.readFilteredMap(1).edge, 0);
+    for (const float depth : frame.readShadowMap(1).values) ASSERT_EQ(depth, 1);
+    for (const float v : frame.readVisibility(1).values) ASSERT_EQ(v, 1);
+    frame.setLamps({});
+    frame.render(settings);
+    EXPECT_EQ(drawn, frame.drawnTriangles()) << "all of them are the sun's";
+}
+
 // Soft ones too: half of the light is where the ray's hard edge is. The slack is for techniques
 // that leak or widen.
 TEST(LampFrame, EveryTechniqueShadowsWithBothKindsOfLamps) {
