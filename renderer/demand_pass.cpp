@@ -35,8 +35,8 @@ PixelDemandPrograms::PixelDemandPrograms(const ShaderLibrary& shaders, Make make
 }
 
 const Program& PixelDemandPrograms::programOf(const Technique& technique, const DemandRule& rule) {
-    return programOf({hasOwnRadius(shaders_, technique) ? &technique : nullptr,
-                      rule.contrastExponent != 0});
+    return programOf(
+        {hasOwnRadius(shaders_, technique) ? &technique : nullptr, rule.contrastExponent != 0});
 }
 
 const Program& PixelDemandPrograms::programOf(Key key) {
@@ -95,7 +95,7 @@ bool DemandPass::submit(const Renderer& frame, const DemandRule& rule, PassClock
     frame.bindConstants(view);
     if (clock != nullptr) clock->begin(Pass::demand);
     programs_.use(*inputs, rule);
-    const SparsePixels pixels = sparsePixels(frame, ring.submissions());
+    const SparsePixels pixels = sparsePixels(frame, view, ring.submissions());
     glUniform3i(2, pixels.cell.x, pixels.cell.y, pixels.cell.z);
     ring.begin();
     glDispatchCompute(pixels.groupsX, pixels.groupsY, 1);
@@ -122,14 +122,18 @@ int DemandPass::cellEdge(int widthPx, int heightPx) {
     return std::int64_t{widthPx} * heightPx > kLargePx ? kLargeCellEdge : kCellEdge;
 }
 
-SparsePixels sparsePixels(const Renderer& frame, std::uint64_t turn) {
+SparsePixels sparsePixels(const Renderer& frame, std::size_t view, std::uint64_t turn) {
     const int edge = DemandPass::cellEdge(frame.widthPx(), frame.heightPx());
-    const glm::ivec2 pixel = pixelOfCell(edge, turn);
-    const auto groups = [edge](int pixelsAlong, int perGroup) {
-        const int cells = (pixelsAlong + edge - 1) / edge;
+    const PixelRect served = frame.servedPixels()[view];
+    // Cells begin at the screen's corner, so that a map that serves more has the same.
+    const glm::ivec2 first = glm::ivec2(served.x, served.y) / edge;
+    const auto groups = [edge](int endPx, int firstCell, int perGroup) {
+        const int cells = std::max((endPx + edge - 1) / edge - firstCell, 0);
         return static_cast<GLuint>((cells + perGroup - 1) / perGroup);
     };
-    return {{pixel, edge}, groups(frame.widthPx(), 16), groups(frame.heightPx(), 8)};
+    return {{first * edge + pixelOfCell(edge, turn), edge},
+            groups(served.x + served.width, first.x, 16),
+            groups(served.y + served.height, first.y, 8)};
 }
 
 }  // namespace renderer

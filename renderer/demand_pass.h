@@ -121,12 +121,13 @@ class DemandPass {
     std::vector<std::unique_ptr<CounterRing>> rings_;  // one for each map
 };
 
-/// Of a pass that asks one pixel of every cell, in groups of 16 x 8 cells.
+/// Of a pass that asks one pixel of every cell in which a map may serve one, in groups of 16 x 8
+/// cells.
 struct SparsePixels {
-    glm::ivec3 cell{0};  ///< x, y of the pixel in its cell, z the cell's edge
+    glm::ivec3 cell{0};  ///< x, y of the pixel in the first cell, z the cells' edge
     GLuint groupsX = 0, groupsY = 0;
 };
 /// Calls with turn = 0, 1, 2, ... ask every pixel of a cell in turn.
-SparsePixels sparsePixels(const Renderer& frame, std::uint64_t turn);
+SparsePixels sparsePixels(const Renderer& frame, std::size_t view, std::uint64_t turn);
 
 }  // namespace renderer

@@ -83,7 +83,7 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
     frame.drawCasters(target_, kDrawnEdge, shadow);
 
-    const SparsePixels pixels = sparsePixels(frame, answers.ring.submissions() / kTiles);
+    const SparsePixels pixels = sparsePixels(frame, view, answers.ring.submissions() / kTiles);
     glUseProgram(program_.name());
     glBindTextureUnit(0, inputs->positions);
     glBindTextureUnit(1, inputs->planes);

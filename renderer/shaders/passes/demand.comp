@@ -11,7 +11,7 @@ layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(std430, binding = 0) buffer Counters { uint counters[STAIRWELL_DEMAND_COUNTERS]; };
 
-layout(location = 2) uniform ivec3 cell;  // x, y of the pixel in its cell, z the cell's edge
+layout(location = 2) uniform ivec3 cell;  // x, y of the pixel in the first cell, z the cells' edge
 
 const uint kGroup = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
 shared uint groupCounters[STAIRWELL_DEMAND_COUNTERS];

@@ -13,7 +13,7 @@ layout(std430, binding = 0) buffer Counters { uint counters[STAIRWELL_DEMAND_COU
 
 layout(location = 0) uniform vec4 rule;  // in the order of StairwellDemandRule
 layout(location = 1) uniform uint hasKernel;
-layout(location = 2) uniform ivec3 cell;  // x, y of the pixel in its cell, z the cell's edge
+layout(location = 2) uniform ivec3 cell;  // x, y of the pixel in the first cell, z the cells' edge
 layout(location = 3) uniform ivec4 tile;  // xy texel of the finer map in the tile's corner, z its margin, w its edge
 
 // A caster at least so many times as long as it is wide.
