@@ -114,12 +114,12 @@ struct Surfaces {
     renderer::FloatImage positions, planes, visibility, depths;
     renderer::f32::ShadowConstants shadow;
 
-    explicit Surfaces(renderer::Renderer& frame)
+    Surfaces(renderer::Renderer& frame, std::size_t view)
         : positions(frame.readPositions()),
           planes(frame.readPlanes()),
-          visibility(frame.readVisibility()),
-          depths(frame.readShadowMap()),
-          shadow(frame.shadowConstants()) {}
+          visibility(frame.readVisibility(frame.lightViews()[view].light)),
+          depths(frame.readShadowMap(view)),
+          shadow(frame.shadowConstants(view)) {}
 
     static glm::vec3 three(const renderer::FloatImage& image, int x, int y) {
         return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
@@ -131,7 +131,8 @@ struct Surfaces {
             if (u < 0 || v < 0 || u >= positions.width || v >= positions.height) continue;
             const glm::vec3 way = three(positions, u, v) - three(positions, x, y);
             if (positions.at(u, v, 3) != 0 &&
-                glm::dot(three(planes, u, v), glm::vec3(shadow.towardsLight)) > 0 &&
+                glm::dot(three(planes, u, v),
+                         renderer::f32::towardsLight(three(positions, u, v), shadow)) > 0 &&
                 std::abs(glm::dot(way, three(planes, x, y))) <= 0.5F * glm::length(way) &&
                 std::abs(visibility.at(u, v) - visibility.at(x, y)) > renderer::f32::kVisibleShare)
                 return true;
@@ -143,8 +144,8 @@ struct Surfaces {
 /// All pixels of the last frame on the CPU: the shaders' receiver, the technique's radius, the
 /// controller's formula.
 Counters onTheCpu(renderer::Renderer& frame, const renderer::Technique& technique,
-                  const rc::DemandRule& rule) {
-    const Surfaces surfaces(frame);
+                  const rc::DemandRule& rule, std::size_t view = 0) {
+    const Surfaces surfaces(frame, view);
     const auto& shadow = surfaces.shadow;
     Counters counters{};
     for (int y = 0; y < surfaces.positions.height; ++y) {
@@ -156,6 +157,10 @@ Counters onTheCpu(renderer::Renderer& frame, const renderer::Technique& techniqu
             const bool onMap = receiver.uv.x >= 0 && receiver.uv.y >= 0 && receiver.uv.x <= 1 &&
                                receiver.uv.y <= 1;
             if (!receiver.facesLight || !onMap) continue;
+            const glm::vec3 place = Surfaces::three(surfaces.positions, x, y);
+            if (!serves(receiver, glm::dot(place, glm::vec3(frame.viewConstants().forward)),
+                        shadow))
+                continue;
             const float radius = renderer::cpuPenumbraRadiusUv<float>(
                 technique, {surfaces.depths.values.data(), surfaces.depths.width}, receiver,
                 shadow);
@@ -175,14 +180,14 @@ Counters onTheCpu(renderer::Renderer& frame, const renderer::Technique& techniqu
 
 /// As many submissions as a cell has pixels ask every pixel once.
 Counters onTheGpu(renderer::DemandPass& pass, const renderer::Renderer& frame,
-                  const renderer::DemandRule& rule) {
+                  const renderer::DemandRule& rule, std::size_t view = 0) {
     Counters counters{};
     const int edge = renderer::DemandPass::cellEdge(frame.widthPx(), frame.heightPx());
     for (int turn = 0; turn < edge * edge; ++turn) {
-        pass.submit(frame, rule);
+        pass.submit(frame, rule, nullptr, view);
         glFinish();
-        const auto reading = pass.next();
-        EXPECT_TRUE(reading && !pass.next());
+        const auto reading = pass.next(view);
+        EXPECT_TRUE(reading && !pass.next(view));
         if (!reading) break;
         for (std::size_t i = 0; i < counters.size(); ++i) counters[i] += reading->at(i);
     }
@@ -210,6 +215,27 @@ TEST(DemandPass, HistogramIsTheCpusOnTheSameSurfaces) {
                     << scene.name << ' ' << technique << ' ' << radius << ' ' << least;
             }
         }
+    }
+}
+
+// Lamps and cascades: each map asks only where it may serve, and misses nothing there.
+TEST(DemandPass, EachOfSeveralMapsAsksAllPixelsThatItServes) {
+    gl();
+    renderer::DemandPass pass(renderer::ShaderLibrary::embedded(), demo::kDemandGlsl);
+    const renderer::Technique& row = renderer::findTechnique("pcf_disc");
+    for (const char* scene : {"lamps", "city:cascades=3"}) {
+        renderer::Renderer frame(gl(), renderer::makeScene(scene), 161, 90);
+        frame.render({.technique = &row, .resolution = 256});
+        int asking = 0;
+        for (std::size_t view = 0; view < frame.lightViews().size(); ++view) {
+            if (!frame.outputs(view)) continue;
+            const Counters expected =
+                onTheCpu(frame, row, {.c = 3.47F, .texelsPerCaster = 0}, view);
+            asking += std::accumulate(expected.begin(), expected.end(), 0U) > 0 ? 1 : 0;
+            EXPECT_EQ(onTheGpu(pass, frame, {.c = 3.47F, .texelsPerCaster = 0}, view), expected)
+                << scene << ", map " << view;
+        }
+        EXPECT_GE(asking, 3) << scene;
     }
 }
 

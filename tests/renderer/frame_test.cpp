@@ -12,6 +12,7 @@
 
 #include "renderer/cpu_filter.h"
 #include "renderer/renderer.h"
+#include "tests/headless_gl.h"
 #include "tests/renderer/cpu_image.h"
 #include "tests/renderer/edge_scene.h"
 #include "tests/renderer/exact_disc.h"
@@ -24,16 +25,10 @@ using renderer::FrameSettings;
 using renderer::ParameterValues;
 using renderer::Technique;
 using testing::HasSubstr;
+using tests::gl;
 namespace f64 = renderer::f64;
 
 constexpr double kPi = std::numbers::pi;
-
-/// One context for the whole program. No context is a failure, not a skip: this project runs on a
-/// software GL.
-const renderer::GlInfo& gl() {
-    static const renderer::HeadlessContext context;
-    return context.info();
-}
 
 const Technique* disc() {
     return &renderer::findTechnique("pcf_disc");

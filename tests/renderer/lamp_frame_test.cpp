@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "renderer/renderer.h"
+#include "tests/headless_gl.h"
 #include "tests/renderer/cpu_image.h"
 #include "tests/renderer/image_check.h"
 
@@ -17,11 +18,7 @@ using renderer::FloatImage;
 using renderer::Lamp;
 using renderer::Technique;
 using testing::HasSubstr;
-
-const renderer::GlInfo& gl() {
-    static const renderer::HeadlessContext context;
-    return context.info();
-}
+using tests::gl;
 
 struct Ball {
     glm::vec3 centre;

@@ -9,16 +9,13 @@
 #include <vector>
 
 #include "renderer/renderer.h"
+#include "tests/headless_gl.h"
 
 namespace {
 
 using renderer::Prefilter;
 using renderer::Technique;
-
-const renderer::GlInfo& gl() {
-    static const renderer::HeadlessContext context;
-    return context.info();
-}
+using tests::gl;
 
 /// The names of all textures that carry a label.
 std::vector<GLuint> labelled(const std::string& label) {

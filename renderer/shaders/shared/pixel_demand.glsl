@@ -19,12 +19,15 @@ layout(location = 1) uniform uint hasKernel;
 
 bool onMap(vec2 uv) { return all(greaterThanEqual(uv, vec2(0.0))) && all(lessThanEqual(uv, vec2(1.0))); }
 
+// Left, right, below, above.
+ivec2 pixelBeside(ivec2 pixel, int i) { return pixel + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5)); }
+
 // Another visibility on the surface of the pixel: at a silhouette, and at the border of what faces the light, it
 // changes without a stair-step of the map. The tangent of 30 degrees between the plane and the way to the neighbour
 // lets curved surfaces pass (chosen by eye).
 bool changesBeside(ivec2 pixel, vec3 position, vec3 plane, float visibility) {
     for (int i = 0; i < 4; ++i) {
-        ivec2 beside = pixel + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+        ivec2 beside = pixelBeside(pixel, i);
         if (any(lessThan(beside, ivec2(0))) || any(greaterThanEqual(beside, ivec2(view.viewport.xy)))) continue;
         if (abs(texelFetch(visibilities, beside, 0).x - visibility) <= kVisibleShare) continue;
         vec4 other = texelFetch(positions, beside, 0);
@@ -61,7 +64,7 @@ bool mayAsk(ivec2 pixel) {
     float visibility = texelFetch(visibilities, pixel, 0).x;
     if (inPenumbra(visibility)) return true;
     for (int i = 0; i < 4; ++i) {
-        ivec2 beside = pixel + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+        ivec2 beside = pixelBeside(pixel, i);
         float other = texelFetch(visibilities, clamp(beside, ivec2(0), last), 0).x;
         if (abs(other - visibility) > kVisibleShare) return true;
     }
