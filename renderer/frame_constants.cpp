@@ -41,6 +41,7 @@ f64::ShadowConstants toDouble(const f32::ShadowConstants& c) {
             {glm::dvec4(c.parameters[0]), glm::dvec4(c.parameters[1])},
             glm::dvec4(c.scale),
             glm::dvec4(c.part),
+            glm::dvec4(c.stretch),
             glm::dvec4(c.prefilter),
             {glm::dvec4(c.layerEnds[0]), glm::dvec4(c.layerEnds[1]), glm::dvec4(c.layerEnds[2]),
              glm::dvec4(c.layerEnds[3])}};
@@ -101,7 +102,8 @@ void Renderer::setShadowConstants(const FrameSettings& settings, std::size_t vie
     shadow.parameters[0] = glm::make_vec4(values.data());
     shadow.parameters[1] = glm::make_vec4(values.data() + 4);
     shadow.scale = {window.nearM, window.depthRangeM, window.extentM, window.lampAt ? 1 : 0};
-    shadow.part = {window.part.fromM, window.part.toM, window.part.halfWidthUv, 0};
+    shadow.part = {window.part.lowUv, window.part.highUv};
+    shadow.stretch = {window.part.fromM, window.part.toM, 0, 0};
     shadow.prefilter =
         prefilterConstants(technique, values, map.radiusUv, map.minRadiusUv, resolution);
     fillUniformBlock(shadowBlocks_[view], shadow);

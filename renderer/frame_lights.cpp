@@ -63,9 +63,19 @@ void Renderer::fitViews() {
         fitted.emplace_back();
         fitted.front().window = whole;
     }
+    const std::size_t firstOfLamps = fitted.size();
     for (std::size_t lamp = 0; lamp < scene_.lamps.size(); ++lamp)
         for (const LightView& view : lampViews(scene_.lamps[lamp], lamp + 1))
             fitted.push_back(view);
+    lampSteps_.resize(fitted.size() - firstOfLamps);
+    if (windowFit_ == WindowFit::view && widthPx_ > 0) {
+        ConvexBody seen = viewVolume(scene_.camera, static_cast<double>(widthPx_) / heightPx_,
+                                     static_cast<double>(nearestSeenM(scene_.camera)),
+                                     static_cast<double>(farthestSeenM(scene_.camera)));
+        cutToBox(seen, surfaces_);
+        for (std::size_t i = 0; i < lampSteps_.size(); ++i)
+            narrowLampView(fitted[firstOfLamps + i], scene_.casters, seen, lampSteps_[i]);
+    }
     useViews(std::move(fitted));
     if (shadows_.size() != views_.size()) lastTechnique_ = nullptr;
     maps_.resize(views_.size());

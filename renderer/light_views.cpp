@@ -27,7 +27,9 @@ LightView pyramid(const Lamp& lamp, glm::dvec3 forward, double served, std::size
     window.depthRangeM = static_cast<double>(lamp.farM) - window.nearM;
     window.lampAt = at;
     // A little more than half, or rounding could leave points on an edge to no face.
-    window.part.halfWidthUv = 0.5 * served / halfWidth + 1e-6;
+    const double halfWidthUv = 0.5 * served / halfWidth + 1e-6;
+    window.part.lowUv = glm::dvec2(0.5 - halfWidthUv);
+    window.part.highUv = glm::dvec2(0.5 + halfWidthUv);
     // (u w, v w, depth, w) with w the distance along the axis.
     const glm::dvec3 u = right / window.extentM + 0.5 * forward;
     const glm::dvec3 v = up / window.extentM + 0.5 * forward;
@@ -94,6 +96,13 @@ std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light) {
             faces.push_back(pyramid(lamp, forward, 1, light));
         }
     return faces;
+}
+
+void narrowLampView(LightView& view, const Bounds& casters, const ConvexBody& seen,
+                    std::optional<int>& heldStep) {
+    const double wholeM = view.window.extentM;
+    view.window = narrowLampWindow(view.window, casters, seen, heldStep);
+    view.softnessUv = std::min(view.softnessUv * wholeM / view.window.extentM, 1.0);
 }
 
 std::vector<double> cascadeSplits(double nearM, double farM, int count) {

@@ -36,6 +36,10 @@ void checkLights(int cascades, std::span<const Lamp> lamps);
 /// std::invalid_argument for a lamp that cannot be drawn.
 std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light);
 
+/// One of them to what narrowLampWindow() finds, with the same blur in the scene.
+void narrowLampView(LightView& view, const Bounds& casters, const ConvexBody& seen,
+                    std::optional<int>& heldStep);
+
 /// Where the stretches of `count` cascades end, from nearM to farM: count + 1 distances. The
 /// practical scheme (F. Zhang et al., "Parallel-split shadow maps for large-scale virtual
 /// environments", VRCIA 2006): halfway between equal steps and equal ratios.

@@ -45,6 +45,7 @@ void Renderer::setScene(Scene scene) {
     scene_ = std::move(scene);
     reachM_ = kReachOfSoftness * scene_.softnessM;
     windowSteps_.clear();
+    lampSteps_.clear();
     uploadScene();
     fitViews();
     makeVisibilities();

@@ -206,6 +206,7 @@ class Renderer {
     WindowFit windowFit_ = WindowFit::view;
     double reachM_ = 0;
     std::vector<std::optional<int>> windowSteps_;  // extents of the sun's windows before
+    std::vector<std::optional<int>> lampSteps_;    // and of the lamps'
     std::vector<LightView> fitted_;                // before they are moved to their texel grids
     std::vector<LightView> views_;
     std::vector<PixelRect> served_;  // one for each view

@@ -7,19 +7,6 @@
 #include "renderer/view_volume.h"
 
 namespace renderer {
-namespace {
-
-glm::dvec4 rowOf(const glm::dmat4& m, int row) {
-    return {m[0][row], m[1][row], m[2][row], m[3][row]};
-}
-
-/// Between two values of a linear function of the place, given by its row.
-void cut(ConvexBody& body, const glm::dvec4& row, double low, double high) {
-    body.push_back(row - glm::dvec4(0, 0, 0, low));
-    body.push_back(glm::dvec4(0, 0, 0, high) - row);
-}
-
-}  // namespace
 
 PixelRect servedPixels(const LightView& view, const OrbitCamera& camera, const Bounds& surfaces,
                        int widthPx, int heightPx) {
@@ -27,26 +14,10 @@ PixelRect servedPixels(const LightView& view, const OrbitCamera& camera, const B
     const double aspect = static_cast<double>(widthPx) / heightPx;
     const double fromM = std::max(static_cast<double>(nearestSeenM(camera)), part.fromM);
     const double toM = std::min(static_cast<double>(farthestSeenM(camera)), part.toM);
-    if (!(fromM < toM)) return {};
+    if (!(fromM < toM && part.lowUv.x < part.highUv.x && part.lowUv.y < part.highUv.y)) return {};
     ConvexBody body = viewVolume(camera, aspect, fromM, toM);
-    // A plane on which everything stands is seen with its rounding.
-    const double slack =
-        1e-4 * glm::length(glm::dvec3(surfaces.high) - glm::dvec3(surfaces.low)) + 1e-6;
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec4 row(0);
-        row[axis] = 1;
-        cut(body, row, static_cast<double>(surfaces.low[axis]) - slack,
-            static_cast<double>(surfaces.high[axis]) + slack);
-    }
-    if (view.window.lampAt) {
-        // |u - 1/2| <= h with u w linear in the place and w > 0, and v alike.
-        const glm::dvec4 w = rowOf(view.window.shadowFromWorld, 3);
-        for (const int row : {0, 1}) {
-            const glm::dvec4 fromMiddle = rowOf(view.window.shadowFromWorld, row) - 0.5 * w;
-            body.push_back(part.halfWidthUv * w + fromMiddle);
-            body.push_back(part.halfWidthUv * w - fromMiddle);
-        }
-    }
+    cutToBox(body, surfaces);
+    if (view.window.lampAt) cutToPyramid(body, view.window, part.lowUv, part.highUv);
     const glm::dvec3 eye(camera.eye());
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));

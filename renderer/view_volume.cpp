@@ -32,6 +32,18 @@ ConvexBody viewVolume(const OrbitCamera& camera, double aspect, double nearM, do
     return body;
 }
 
+void cutToBox(ConvexBody& body, const Bounds& bounds) {
+    const glm::dvec3 low(bounds.low);
+    const glm::dvec3 high(bounds.high);
+    const double slack = 1e-4 * glm::length(high - low) + 1e-6;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 normal(0);
+        normal[axis] = 1;
+        body.emplace_back(normal, slack - low[axis]);
+        body.emplace_back(-normal, slack + high[axis]);
+    }
+}
+
 std::vector<glm::dvec3> cornersOf(const ConvexBody& body) {
     std::vector<glm::dvec3> corners;
     for (std::size_t i = 0; i < body.size(); ++i)

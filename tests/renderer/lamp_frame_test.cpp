@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -272,6 +273,66 @@ TEST(CascadeFrame, ShowsTheShadowsOfOneMap) {
                 std::string("cascades_") + name + "_" + kind.technique, three, one,
                 {.most = kind.most, .often = ripple, .shareBeyondOften = kind.share});
         }
+    }
+}
+
+/// Both kinds of lamps, from a camera near one of the balls.
+renderer::Scene nearBall(std::size_t ball) {
+    renderer::Scene scene = ballScene({kPoint, kSpot});
+    scene.camera.target = kBalls[ball].centre;
+    scene.camera.pitchDeg = 35;
+    scene.camera.distanceM = 1.5F;
+    return scene;
+}
+
+// The same blur in the scene from maps narrowed to what is seen of the shadows and from whole ones:
+// what differs is the staircases of two grids, as above.
+TEST(LampFrame, NarrowedMapsShowTheShadowsOfWholeOnes) {
+    constexpr double kSoftness = 0.02;
+    constexpr int kN = 1400;
+    for (std::size_t ball = 0; ball < std::size(kBalls); ++ball) {
+        renderer::Scene scene = nearBall(ball);
+        for (Lamp& lamp : scene.lamps) lamp.softness = kSoftness;
+        renderer::Renderer frame(gl(), scene, 160, 90);
+        for (const char* name : {"pcf_disc", "vsm"}) {
+            const auto drawn = [&](renderer::WindowFit fit) {
+                frame.setWindowFit(fit);
+                frame.render({.technique = &renderer::findTechnique(name),
+                              .resolution = kN,
+                              .radiusUv = 0.01F});
+                return std::array{frame.readVisibility(1), frame.readVisibility(2)};
+            };
+            const auto whole = drawn(renderer::WindowFit::casters);
+            double widest = 0;
+            for (const renderer::LightView& view : frame.lightViews())
+                if (view.window.lampAt) widest = std::max(widest, view.window.extentM);
+            const auto narrowed = drawn(renderer::WindowFit::view);
+            const double ripple = 2 * 2 * widest / (std::numbers::pi * kN * kSoftness);
+            for (const std::size_t light : {0U, 1U})
+                tests::expectImagesAgree(
+                    "narrowed_" + std::to_string(ball) + "_" + std::to_string(light) + "_" + name,
+                    narrowed[light], whole[light],
+                    {.most = 0.2, .often = ripple, .shareBeyondOften = 0.0005});
+        }
+    }
+}
+
+// One ball is seen: its shadow's maps are narrowed to it, and most of the others serve nothing.
+TEST(LampFrame, MapsAreNarrowedToTheShadowsThatAreSeen) {
+    for (std::size_t ball = 0; ball < std::size(kBalls); ++ball) {
+        renderer::Renderer frame(gl(), nearBall(ball), 160, 90);
+        const renderer::FrameSettings settings{
+            .technique = &renderer::findTechnique("vsm"), .resolution = 256, .radiusUv = 0.01F};
+        frame.render(settings);
+        std::size_t serving = 0;
+        for (std::size_t view = 1; view < frame.lightViews().size(); ++view) {
+            if (frame.servedPixels()[view].empty()) continue;
+            ++serving;
+            const renderer::ShadowWindow& window = frame.lightViews()[view].window;
+            EXPECT_TRUE(window.narrowed) << "map " << view << " at ball " << ball;
+        }
+        EXPECT_LE(serving, 4U) << "of a cube's six and a spot's at ball " << ball;
+        EXPECT_GE(serving, 2U);
     }
 }
 

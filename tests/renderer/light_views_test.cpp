@@ -23,8 +23,10 @@ glm::dvec3 direction(std::mt19937& random) {
 bool serves(const LightView& view, glm::dvec3 point) {
     const glm::dvec4 h = view.window.shadowFromWorld * glm::dvec4(point, 1);
     if (!(h.w > 0)) return false;
-    const glm::dvec2 off = glm::abs(glm::dvec2(h) / h.w - 0.5);
-    return std::max(off.x, off.y) <= view.window.part.halfWidthUv;
+    const glm::dvec2 uv = glm::dvec2(h) / h.w;
+    const renderer::ViewPart& part = view.window.part;
+    return glm::all(glm::greaterThanEqual(uv, part.lowUv)) &&
+           glm::all(glm::lessThanEqual(uv, part.highUv));
 }
 
 TEST(LampViews, FacesOfACubeServeEveryDirectionOnce) {
@@ -51,7 +53,8 @@ TEST(LampViews, FacesOfACubeServeEveryDirectionOnce) {
     for (const LightView& face : faces) {
         EXPECT_EQ(face.light, 4U);
         // The kernel finds what lies beyond the edge on the same map.
-        EXPECT_GE(0.5 - face.window.part.halfWidthUv,
+        EXPECT_GE(face.window.part.lowUv.x, 0.99 * renderer::kReachOfSoftness * face.softnessUv);
+        EXPECT_GE(1 - face.window.part.highUv.y,
                   0.99 * renderer::kReachOfSoftness * face.softnessUv);
     }
 }

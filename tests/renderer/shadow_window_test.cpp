@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/light_views.h"
+#include "tests/renderer/technique_case.h"
+
 namespace {
 
 TEST(ShadowWindow, HoldsEveryCasterAtEverySun) {
@@ -194,6 +197,155 @@ TEST(NarrowedWindow, IsTheWholeOneWhereNothingInShadowIsSeen) {
     EXPECT_EQ(window.shadowFromWorld, whole.shadowFromWorld);
     EXPECT_EQ(step, 3) << "a glance at the sky does not let go of the extent";
     EXPECT_EQ(snapToTexels(whole, 100).shadowFromWorld, whole.shadowFromWorld);
+}
+
+/// A lamp over a yard, its maps and a camera in it, all at random.
+struct LitYard {
+    const renderer::Bounds casters{{-2, 0, -1.5F}, {2.5F, 1.2F, 2}};
+    const renderer::Bounds surfaces{{-8, 0, -8}, {8, 1.2F, 8}};
+    renderer::Lamp lamp;
+    renderer::OrbitCamera camera;
+    renderer::ConvexBody seen;
+
+    explicit LitYard(tests::Random& random) {
+        lamp = {.kind = random() < 0.5 ? renderer::Lamp::Kind::point : renderer::Lamp::Kind::spot,
+                .position = glm::vec3(random(-4, 4), random(0.2, 4), random(-4, 4)),
+                .target = glm::vec3(random(-1, 1), -0.2, random(-1, 1)),
+                .coneDeg = static_cast<float>(random(20, 120)),
+                .farM = 12,
+                .softness = static_cast<float>(random(0, 0.02))};
+        camera = {.target = glm::vec3(random(-4, 4), random(0, 1), random(-4, 4)),
+                  .yawDeg = static_cast<float>(random(-180, 180)),
+                  .pitchDeg = static_cast<float>(random(5, 80)),
+                  .distanceM = static_cast<float>(random(0.2, 6)),
+                  .verticalFieldDeg = 40};
+        see();
+    }
+    void see() {
+        seen = seenBy(camera);
+        cutToBox(seen, surfaces);
+    }
+    bool sees(const glm::dvec3& point) const {
+        return std::all_of(seen.begin(), seen.end(), [&](const glm::dvec4& plane) {
+            return glm::dot(plane, glm::dvec4(point, 1)) > 0;
+        });
+    }
+};
+
+glm::dvec3 pointIn(const renderer::Bounds& bounds, tests::Random& random) {
+    return glm::mix(glm::dvec3(bounds.low), glm::dvec3(bounds.high),
+                    glm::dvec3(random(), random(), random()));
+}
+
+glm::dvec2 lampPlace(const renderer::ShadowWindow& window, const glm::dvec3& point) {
+    const glm::dvec4 h = window.shadowFromWorld * glm::dvec4(point, 1);
+    return glm::dvec2(h) / h.w;
+}
+
+// Whatever a caster within its bounds can throw a shadow on, with the casters that a kernel finds
+// around it; and a whole map's receivers stay its own.
+TEST(NarrowedLampWindow, HoldsEveryShadowThatIsSeenWithRoomForTheKernel) {
+    tests::Random random(5);
+#ifdef __SANITIZE_ADDRESS__
+    constexpr int kRounds = 100;
+#else
+    constexpr int kRounds = 1000;
+#endif
+    int narrowed = 0;
+    int none = 0;
+    int shadowed = 0;
+    for (int round = 0; round < kRounds; ++round) {
+        const LitYard yard(random);
+        for (const renderer::LightView& whole : lampViews(yard.lamp, 1)) {
+            std::optional<int> step;
+            renderer::LightView view = whole;
+            narrowLampView(view, yard.casters, yard.seen, step);
+            const bool empty = !(view.window.part.lowUv.x < view.window.part.highUv.x);
+            none += empty ? 1 : 0;
+            narrowed += view.window.narrowed ? 1 : 0;
+            ASSERT_LE(view.window.extentM, whole.window.extentM);
+            ASSERT_EQ(view.window.depthRangeM, whole.window.depthRangeM);
+            ASSERT_NEAR(view.softnessUv * view.window.extentM,
+                        whole.softnessUv * whole.window.extentM, 1e-9);
+            const auto window = snapToTexels(view.window, 64);
+            const double scale = whole.window.extentM / window.extentM;
+            const double room = scale * whole.window.part.lowUv.x - 1e-5;
+            for (int i = 0; i < 200; ++i) {
+                const glm::dvec3 caster = pointIn(yard.casters, random);
+                const glm::dvec3 at(yard.lamp.position);
+                const glm::dvec3 receiver = at + random(1, 4) * (caster - at);
+                const glm::dvec4 h = whole.window.shadowFromWorld * glm::dvec4(caster, 1);
+                if (!(h.z > 0 && h.z < 1) || !yard.sees(receiver)) continue;
+                const glm::dvec2 wholeUv = lampPlace(whole.window, receiver);
+                if (!(glm::all(glm::greaterThan(wholeUv, whole.window.part.lowUv)) &&
+                      glm::all(glm::lessThan(wholeUv, whole.window.part.highUv))))
+                    continue;
+                ++shadowed;
+                ASSERT_FALSE(empty);
+                const glm::dvec2 uv = lampPlace(window, receiver);
+                ASSERT_TRUE(uv.x > room && uv.y > room && uv.x < 1 - room && uv.y < 1 - room)
+                    << uv.x << ' ' << uv.y << " of an extent of " << window.extentM << ", whole "
+                    << whole.window.extentM;
+                ASSERT_NEAR(uv.x - window.part.lowUv.x,
+                            scale * (wholeUv.x - whole.window.part.lowUv.x), 1e-9);
+                ASSERT_NEAR(window.part.highUv.y - uv.y,
+                            scale * (whole.window.part.highUv.y - wholeUv.y), 1e-9);
+            }
+        }
+    }
+    EXPECT_GT(shadowed, 10 * kRounds);
+    EXPECT_GT(narrowed, kRounds / 3);
+    EXPECT_GT(none, kRounds / 3);
+}
+
+TEST(NarrowedLampWindow, KeepsItsTexelGridWhileTheCameraMoves) {
+    tests::Random random(6);
+    LitYard yard(random);
+    yard.lamp = {.position = {1, 4, 2}, .target = {0, 0, 0}, .coneDeg = 70, .farM = 12};
+    const auto whole = renderer::lampViews(yard.lamp, 1).front();
+    const glm::dvec3 point(0.3, 0.2, -0.4);
+    std::optional<int> step;
+    std::optional<int> lastStep;
+    glm::dvec2 lastPlace(0);
+    int kept = 0;
+    int moved = 0;
+    for (int i = 0; i < 400; ++i) {
+        yard.camera = {.target = {0.8F * std::sin(0.05F * static_cast<float>(i)), 0.3F, 0},
+                       .yawDeg = static_cast<float>(i) / 4,
+                       .pitchDeg = 40,
+                       .distanceM = 1,
+                       .verticalFieldDeg = 40};
+        yard.see();
+        const auto window =
+            snapToTexels(narrowLampWindow(whole.window, yard.casters, yard.seen, step), 368);
+        ASSERT_TRUE(window.narrowed);
+        const glm::dvec2 texels = lampPlace(window, point) * 368.0;
+        if (i > 0 && step == lastStep) {
+            ++kept;
+            moved += glm::distance(texels, lastPlace) > 0.5 ? 1 : 0;
+            for (const int k : {0, 1})
+                EXPECT_NEAR(texels[k] - lastPlace[k], std::round(texels[k] - lastPlace[k]), 1e-6)
+                    << i;
+        }
+        lastStep = step;
+        lastPlace = texels;
+    }
+    EXPECT_GT(kept, 360) << "the extent changes a few times on the way";
+    EXPECT_GT(moved, 100) << "the window did move";
+}
+
+TEST(NarrowedLampWindow, KeepsItsExtentAtAGlanceAway) {
+    tests::Random random(7);
+    LitYard yard(random);
+    yard.lamp = {.position = {1, 4, 2}, .target = {0, 0, 0}, .coneDeg = 70, .farM = 12};
+    yard.camera = {.target = {0, 500, 0}, .pitchDeg = -80, .distanceM = 10};
+    yard.see();
+    const auto whole = renderer::lampViews(yard.lamp, 1).front();
+    std::optional<int> step = -3;
+    const auto window = narrowLampWindow(whole.window, yard.casters, yard.seen, step);
+    EXPECT_FALSE(window.part.lowUv.x < window.part.highUv.x) << "it serves nothing";
+    EXPECT_EQ(window.shadowFromWorld, whole.window.shadowFromWorld);
+    EXPECT_EQ(step, -3);
 }
 
 }  // namespace

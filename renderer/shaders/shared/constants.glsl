@@ -25,8 +25,8 @@ struct ShadowConstants {
     real4 parameters[2];            // of the technique, in the order of its table row
     real4 scale;                    // of a lamp: x least distance, y that depth 0..1 spans beyond it, in m along the
                                     // map's axis; z the map's width, in m (of a lamp: at 1 m); w 1 for a lamp
-    real4 part;                     // the receivers that this map serves: x, y from and up to which distance along the
-                                    // view axis in m, z how far from the map's middle in uv
+    real4 part;                     // the receivers that this map serves: xy least, zw greatest uv,
+    real4 stretch;                  // x, y from and up to which distance along the view axis in m
     real4 prefilter;                // x the kernel's standard deviation in texels, y 1 if it is a Gaussian and 0 if a box,
                                     // z texels of the guard band; w 1 if a texel is split into high and low parts,
                                     // or minus the levels of a mip chain above its first, or minus the units of summed

@@ -89,10 +89,11 @@ SHARED_FUNCTION ShadowReceiver shadowReceiver(real3 eyeRelative, real3 planeNorm
 // Whether this map is the one for a receiver: of a cascade those in its stretch of the view, of a cube's face those in
 // its quarter, of a spot those in its square.
 SHARED_FUNCTION bool serves(ShadowReceiver receiver, real viewDistance, ShadowConstants shadow) {
-    if (!(viewDistance >= shadow.part.x && viewDistance < shadow.part.y)) return false;
+    if (!(viewDistance >= shadow.stretch.x && viewDistance < shadow.stretch.y)) return false;
     // Behind the lamp uv are mirrored.
     if (shadow.scale.w != real(0.0) && !(receiver.depth * shadow.scale.y + shadow.scale.x > real(0.0))) return false;
-    return abs(receiver.uv.x - real(0.5)) <= shadow.part.z && abs(receiver.uv.y - real(0.5)) <= shadow.part.z;
+    return receiver.uv.x >= shadow.part.x && receiver.uv.y >= shadow.part.y && receiver.uv.x <= shadow.part.z &&
+           receiver.uv.y <= shadow.part.w;
 }
 
 // Half a code value of a display: what lies nearer to light or shadow is one of them to any eye. Sums of weights leave
