@@ -48,6 +48,23 @@ bool inWindow(const Options& options) {
     return !options.headless && !options.writeFrames;
 }
 
+std::string valueText(const renderer::TechniqueParameter& parameter, float value) {
+    if (parameter.zeroIsAuto && value == 0) return "auto";
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
+    return text;
+}
+
+std::string rangeText(const renderer::TechniqueParameter& parameter) {
+    if (parameter.whole && parameter.low == 0 && parameter.high == 1) return "0 or 1";
+    renderer::TechniqueParameter numbers = parameter;
+    numbers.zeroIsAuto = false;
+    const std::string range = valueText(numbers, parameter.zeroIsAuto ? 1 : parameter.low) +
+                              " to " + valueText(numbers, parameter.high) +
+                              (parameter.whole ? " in whole numbers" : "");
+    return parameter.zeroIsAuto ? "auto or " + range : range;
+}
+
 void listTechniques() {
     for (const renderer::Technique& technique : renderer::techniques()) {
         std::printf("%s\t%s; %s; map %s, prefilter %s; %s\n", std::string(technique.name).c_str(),
@@ -59,13 +76,13 @@ void listTechniques() {
             std::printf("  a plane may darken itself by %.2g\n",
                         static_cast<double>(technique.planeDarkening));
         for (const renderer::TechniqueParameter& parameter : technique.parameters)
-            std::printf("  %s=%g\t%s, %g to %g\n", std::string(parameter.name).c_str(),
-                        static_cast<double>(parameter.standard),
-                        std::string(parameter.meaning).c_str(), static_cast<double>(parameter.low),
-                        static_cast<double>(parameter.high));
-        for (const renderer::Property property : technique.doNotHold)
-            std::printf("  does not hold: %s (%s)\n", std::string(toText(property)).c_str(),
-                        std::string(technique.doNotHoldBecause).c_str());
+            std::printf("  %s=%s\t%s, %s\n", std::string(parameter.name).c_str(),
+                        valueText(parameter, parameter.standard).c_str(),
+                        std::string(parameter.meaning).c_str(), rangeText(parameter).c_str());
+        for (const renderer::Exemption& exemption : technique.doNotHold)
+            std::printf("  does not hold: %s (%s)\n",
+                        std::string(toText(exemption.property)).c_str(),
+                        std::string(exemption.because).c_str());
     }
 }
 
@@ -82,11 +99,24 @@ void setParameters(const std::vector<std::string>& texts, demo::ViewerState& sta
     for (const std::string& text : texts) {
         const std::size_t equals = text.find('=');
         char* end = nullptr;
+        const std::string name = text.substr(0, equals);
+        if (equals != std::string::npos && text.substr(equals + 1) == "auto") {
+            const auto slot = technique.parameterSlot(name);
+            if (slot && !technique.parameters[*slot].zeroIsAuto)
+                throw std::invalid_argument("--parameter is \"" + text + "\", but " + name +
+                                            " of technique " + std::string(technique.name) +
+                                            " has no automatic choice; must be " +
+                                            rangeText(technique.parameters[*slot]));
+            setParameter(technique, values, name, 0);
+            continue;
+        }
         const float value =
             equals == std::string::npos ? 0 : std::strtof(text.c_str() + equals + 1, &end);
         if (equals == std::string::npos || end == text.c_str() + equals + 1 || *end != '\0')
-            throw std::invalid_argument("--parameter is \"" + text + "\", must be NAME=NUMBER");
-        setParameter(technique, values, text.substr(0, equals), value);
+            throw std::invalid_argument("--parameter is \"" + text +
+                                        "\", must be NAME=NUMBER, or NAME=auto where that is "
+                                        "offered");
+        setParameter(technique, values, name, value);
     }
     state.parameters[state.technique] = values;
 }
@@ -343,7 +373,8 @@ int main(int argc, char** argv) {
     app.add_option("--technique", options.technique,
                    "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,
-                   "NAME=NUMBER, a parameter of the technique; may be repeated");
+                   "NAME=NUMBER, or NAME=auto where --list-techniques offers that: a parameter of "
+                   "the technique; may be repeated");
     app.add_option("--resolution", options.resolution,
                    "map edge N in texels, or auto; default: auto");
     auto* radius = app.add_option("--radius", options.radiusM,

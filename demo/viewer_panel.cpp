@@ -64,9 +64,18 @@ void drawTechnique(ViewerState& state) {
     bool changed = false;
     for (std::size_t i = 0; i < technique.parameters.size(); ++i) {
         const renderer::TechniqueParameter& parameter = technique.parameters[i];
-        changed |=
-            ImGui::SliderFloat(std::string(parameter.name).c_str(), &values[i], parameter.low,
-                               parameter.high, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+        const std::string label(parameter.name);
+        if (parameter.whole) {
+            int value = static_cast<int>(std::lround(values[i]));
+            changed |= ImGui::SliderInt(label.c_str(), &value, static_cast<int>(parameter.low),
+                                        static_cast<int>(parameter.high),
+                                        parameter.zeroIsAuto && value == 0 ? "auto" : "%d",
+                                        ImGuiSliderFlags_AlwaysClamp);
+            values[i] = static_cast<float>(value);
+        } else {
+            changed |= ImGui::SliderFloat(label.c_str(), &values[i], parameter.low, parameter.high,
+                                          "%.4g", ImGuiSliderFlags_AlwaysClamp);
+        }
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(parameter.meaning).c_str());
     }
     if (changed) state.parameters[state.technique] = values;

@@ -65,7 +65,8 @@ constexpr float kSplitRounding = 3.0F / (1 << 20);
 
 constexpr TechniqueParameter kDepthMapParameters[] = {kBiasTexels};
 constexpr TechniqueParameter kHardParameters[] = {kFacetBiasTexels};
-constexpr Property kHardDoesNot[] = {Property::softnessIndependentOfN};
+constexpr Exemption kHardDoesNot[] = {
+    {Property::softnessIndependentOfN, "it has no kernel: its edge is as wide as a texel"}};
 
 constexpr TechniqueParameter kBilinear{
     .name = "bilinear",
@@ -102,9 +103,8 @@ constexpr TechniqueParameter kTapParameters[] = {
      .meaning = "1 turns the taps from pixel to pixel: noise in place of bands",
      .standard = 1,
      .whole = true}};
-constexpr Property kTapsDoNot[] = {Property::errorFallsWithN};
-constexpr std::string_view kTapsDoNotBecause =
-    "a fixed number of samples does not see more of a finer map";
+constexpr Exemption kTapsDoNot[] = {
+    {Property::errorFallsWithN, "a fixed number of samples does not see more of a finer map"}};
 
 constexpr TechniqueParameter kPenumbraDistance{
     .name = "distance",
@@ -123,8 +123,8 @@ constexpr TechniqueParameter kPcssParameters[] = {
      .high = 256,
      .standard = 32,
      .whole = true}};
-constexpr Property kPcssDoesNot[] = {Property::monotoneInDepth};
-constexpr std::string_view kPcssDoesNotBecause = "farther receivers have wider penumbrae";
+constexpr Exemption kPcssDoesNot[] = {
+    {Property::monotoneInDepth, "farther receivers have wider penumbrae"}};
 
 constexpr TechniqueParameter kGradientParameters[] = {
     {.name = "bias",
@@ -160,7 +160,10 @@ constexpr TechniqueParameter kGradientParameters[] = {
      .standard = 4}};
 constexpr TechniqueParameter kStoredGradientParameters[] = {
     kGradientParameters[0], kGradientParameters[2], kGradientParameters[3], kGradientParameters[5]};
-constexpr Property kStoredGradientDoesNot[] = {Property::errorFallsWithN, Property::planeLit};
+constexpr Exemption kStoredGradientDoesNot[] = {
+    kTapsDoNot[0],
+    {Property::planeLit,
+     "at a surface's rim the stored slope is partly that of what lies behind it"}};
 
 /// vsm.glsl. The floor of the variance lies above what rounding makes of it: some steps of the mean
 /// square, each 2^-24 near 1 in 32 bits and 2^-12 in 16.
@@ -227,12 +230,12 @@ constexpr TechniqueParameter kMipVarianceParameters[] = {
      .standard = 16,
      .whole = true},
     kMapSamples};
-constexpr Property kMipsDoNot[] = {Property::errorFallsWithN};
-constexpr std::string_view kMipsDoNotBecause =
-    "the level of a kernel has texels as large as the kernel, whatever N";
+constexpr Exemption kMipsDoNot[] = {
+    {Property::errorFallsWithN,
+     "the level of a kernel has texels as large as the kernel, whatever N"}};
 constexpr TechniqueParameter kVariancePenumbraParameters[] = {
     kBoxBiasTexels, kLeastVariance, kBleeding, kDerivative, kPenumbraDistance, kMapSamples};
-constexpr Property kMipPenumbraDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
+constexpr Exemption kMipPenumbraDoesNot[] = {kPcssDoesNot[0], kMipsDoNot[0]};
 
 /// esm.glsl.
 struct ExponentialParameters {
@@ -252,8 +255,11 @@ constexpr ExponentialParameters exponentialParameters(float depthBias, float exp
 constexpr ExponentialParameters kExponential32 = exponentialParameters(0, 80);
 /// Up to 64 a step is 1/32, which is 2^-11 of the depth range; beyond, twice as much.
 constexpr ExponentialParameters kExponential16 = exponentialParameters(kHalfRounding, 64);
-constexpr Property kExponential16DoesNot[] = {Property::errorFallsWithN,
-                                              Property::softnessIndependentOfN};
+constexpr Exemption kExponential16DoesNot[] = {
+    {Property::errorFallsWithN,
+     "the depth bias for what 16 bits round off, times the exponent, lightens penumbrae by a "
+     "tenth, whatever N"},
+    {Property::softnessIndependentOfN, "that bias narrows penumbrae"}};
 
 /// Beyond this one the squares of a wide kernel's texels, summed before they are divided, are not
 /// finite in 32 bits: those of 6,000 texels are.
@@ -327,17 +333,20 @@ constexpr TechniqueParameter kConvolutionParameters[] = {
      .high = 4,
      .standard = 2},
     kMapSamples};
-constexpr Property kConvolutionDoesNot[] = {Property::monotoneInDepth, Property::errorFallsWithN};
+constexpr std::string_view kRings = "a series of few terms rings behind occluders, whatever N";
+constexpr Exemption kConvolutionDoesNot[] = {{Property::monotoneInDepth, kRings},
+                                             {Property::errorFallsWithN, kRings}};
 
 constexpr TechniqueParameter depthLayers(float standard) {
     return {.name = "layers",
             .meaning =
-                "layers of depth, cut where the map's depths lie; 0: as few as layer_deviation "
+                "layers of depth, cut where the map's depths lie; auto: as few as layer_deviation "
                 "asks for",
             .low = 0,
             .high = 16,
             .standard = standard,
-            .whole = true};
+            .whole = true,
+            .zeroIsAuto = true};
 }
 /// A bound bleeds v / (v + g^2) of light at a distance g behind depths of variance v: at .05 a
 /// fifth at a tenth of the range, a hundredth at half of it.
@@ -377,10 +386,12 @@ constexpr PowerParameters powerParameters(float depthBias) {
 }
 constexpr PowerParameters kPower32 = powerParameters(0);
 constexpr PowerParameters kPower16 = powerParameters(kHalfRounding);
-constexpr Property kPowerDoesNot[] = {Property::errorFallsWithN, Property::softnessIndependentOfN};
-constexpr std::string_view kPowerDoesNotBecause =
-    "a receiver that is the greatest depth under the kernel is dark: shadows are wider by the "
-    "kernel, and on a receiver parallel to the map their edge is as wide as a texel";
+constexpr Exemption kPowerDoesNot[] = {
+    {Property::errorFallsWithN,
+     "a receiver that is the greatest depth under the kernel is dark: shadows are wider by the "
+     "kernel, whatever N"},
+    {Property::softnessIndependentOfN,
+     "for that, on a receiver parallel to the map a shadow's edge is as wide as a texel"}};
 
 constexpr std::string_view kPcfPaper =
     "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps";
@@ -403,7 +414,6 @@ constexpr Technique kTechniques[] = {
      .soft = false,
      .parameters = kHardParameters,
      .doNotHold = kHardDoesNot,
-     .doNotHoldBecause = "it has no kernel: its edge is as wide as a texel",
      .cost = "1 texel a pixel"},
     {.name = "pcf_disc",
      .title = "PCF, full disc",
@@ -415,28 +425,24 @@ constexpr Technique kTechniques[] = {
      .paper = kPcfPaper,
      .parameters = kGridParameters,
      .doNotHold = kTapsDoNot,
-     .doNotHoldBecause = kTapsDoNotBecause,
      .cost = "samples^2 texels a pixel, four times as many bilinearly; independent of N"},
     {.name = "pcf_taps",
      .title = "PCF, Poisson or Vogel taps",
      .paper = kPcfPaper,
      .parameters = kTapParameters,
      .doNotHold = kTapsDoNot,
-     .doNotHoldBecause = kTapsDoNotBecause,
      .cost = "one texel a tap, four bilinearly; independent of N"},
     {.name = "pcss",
      .title = "PCSS, full disc",
      .paper = "Fernando 2005, Percentage-closer soft shadows",
      .parameters = kPcssParameters,
      .doNotHold = kPcssDoesNot,
-     .doNotHoldBecause = kPcssDoesNotBecause,
      .cost = "search_taps texels a pixel and where blockers are pi (r/a)^2 of the local radius"},
     {.name = "gsm",
      .title = "Gradient PCF",
      .paper = "Schueler 2006, Multisampling extension for gradient shadow maps",
      .parameters = kGradientParameters,
      .doNotHold = kTapsDoNot,
-     .doNotHoldBecause = kTapsDoNotBecause,
      .cost = "4 texels a tap, 8 with regression; independent of N"},
     {.name = "gsm_stored",
      .title = "Gradient PCF, stored gradient",
@@ -445,9 +451,6 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::converted,
      .parameters = kStoredGradientParameters,
      .doNotHold = kStoredGradientDoesNot,
-     .doNotHoldBecause =
-         "a fixed number of samples does not see more of a finer map; at a surface's rim "
-         "the stored slope is partly that of what lies behind it",
      .cost = "4 texels a tap and 4 more, each four times as large; independent of N"},
     {.name = "vsm",
      .title = "Variance, 32 bits",
@@ -488,7 +491,6 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::mips,
      .parameters = kMipVarianceParameters,
      .doNotHold = kMipsDoNot,
-     .doNotHoldBecause = kMipsDoNotBecause,
      .cost = "8 texels a probe; the prefilter 4/3 texels a texel, whatever the "
              "kernel"},
     {.name = "vsm_sat",
@@ -506,7 +508,6 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::sums,
      .parameters = kVariancePenumbraParameters,
      .doNotHold = kPcssDoesNot,
-     .doNotHoldBecause = kPcssDoesNotBecause,
      .cost = "32 texels a pixel; the prefilter 2 texels a texel, whatever the "
              "kernel"},
     {.name = "pcss_mip",
@@ -516,9 +517,6 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::mips,
      .parameters = kVariancePenumbraParameters,
      .doNotHold = kMipPenumbraDoesNot,
-     .doNotHoldBecause = "farther receivers have wider penumbrae; and the "
-                         "level of a kernel has "
-                         "texels as large as the kernel, whatever N",
      .cost = "16 texels a pixel; the prefilter 4/3 texels a texel, whatever "
              "the kernel"},
     {.name = "esm",
@@ -536,8 +534,6 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::logMean,
      .parameters = kExponential16.all,
      .doNotHold = kExponential16DoesNot,
-     .doNotHoldBecause = "the depth bias for what 16 bits round off, times the exponent, lightens "
-                         "penumbrae by a tenth and narrows them, whatever N",
      .cost = kSeparableCost},
     {.name = "evsm2",
      .title = "Exponential variance, 2 moments",
@@ -577,7 +573,6 @@ constexpr Technique kTechniques[] = {
      .termsParameter = "terms",
      .parameters = kConvolutionParameters,
      .doNotHold = kConvolutionDoesNot,
-     .doNotHoldBecause = "a series of few terms rings behind occluders, whatever N",
      .cost = "4 texels a pixel and two terms; the prefilter that of a map for every two terms"},
     {.name = "lvsm",
      .title = "Layered variance",
@@ -597,7 +592,6 @@ constexpr Technique kTechniques[] = {
      .termsPerTexel = 1,
      .parameters = kPower32.all,
      .doNotHold = kPowerDoesNot,
-     .doNotHoldBecause = kPowerDoesNotBecause,
      .cost = "4 texels a pixel; the prefilter that of a map for every layer"},
     {.name = "power_cdf16",
      .title = "Power CDF, 16 bits",
@@ -609,7 +603,6 @@ constexpr Technique kTechniques[] = {
      .termsPerTexel = 1,
      .parameters = kPower16.all,
      .doNotHold = kPowerDoesNot,
-     .doNotHoldBecause = kPowerDoesNotBecause,
      .cost = "4 texels a pixel; the prefilter that of a map for every layer"},
 };
 
@@ -719,7 +712,8 @@ std::string_view toText(Property property) {
 }
 
 bool Technique::holds(Property property) const {
-    return std::find(doNotHold.begin(), doNotHold.end(), property) == doNotHold.end();
+    return std::none_of(doNotHold.begin(), doNotHold.end(),
+                        [&](const Exemption& exemption) { return exemption.property == property; });
 }
 
 ParameterValues Technique::standardParameters() const {

@@ -73,6 +73,13 @@ struct TechniqueParameter {
     float low = 0, high = 1;   ///< range, both ends allowed
     float standard = 0;        ///< default
     bool whole = false;        ///< whole numbers alone
+    bool zeroIsAuto = false;   ///< 0 leaves the choice to what the scene needs
+};
+
+/// A promise that does not hold for a technique.
+struct Exemption {
+    Property property;
+    std::string_view because;
 };
 
 inline constexpr std::size_t kMaxTechniqueParameters =
@@ -92,8 +99,7 @@ struct Technique {
     int termsPerTexel = 2;
     bool soft = true;  ///< has a kernel whose radius is the softness
     std::span<const TechniqueParameter> parameters;
-    std::span<const Property> doNotHold = {};
-    std::string_view doNotHoldBecause = {};
+    std::span<const Exemption> doNotHold = {};
     float planeDarkening = 0;  ///< most that a plane in the map darkens itself, of 1
     std::string_view cost;
 

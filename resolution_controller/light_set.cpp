@@ -33,7 +33,10 @@ void follow(HeldNeed& held, std::int32_t need, const Settings& settings, bool at
         held.framesBelow = held.largestBelow = 0;
     } else {
         held.largestBelow = std::max(held.largestBelow, need);
-        if (++held.framesBelow >= settings.lowerAfterFrames) held = {.texels = held.largestBelow};
+        if (held.framesBelow < settings.lowerAfterFrames - 1)
+            ++held.framesBelow;
+        else
+            held = {.texels = held.largestBelow};
     }
 }
 

@@ -306,7 +306,11 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
     std::int32_t lower = *levelAtMost(current - 1, settings_.levelRatio);
     if (!hasRoomFor(lower, need)) return startOver(current);
     s.largestNeedBelow = std::max(s.largestNeedBelow, need);
-    if (++s.framesBelow < settings_.lowerAfterFrames) return current;
+    // Not counted before it is compared: a restored state may stand at the largest number.
+    if (s.framesBelow < settings_.lowerAfterFrames - 1) {
+        ++s.framesBelow;
+        return current;
+    }
 
     // As far down at once as the whole wait allows: a size for each level would pop at each.
     while (lower > limits.low) {

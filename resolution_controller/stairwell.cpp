@@ -52,17 +52,23 @@ void tell(char* message, std::size_t size, std::string_view text) noexcept {
     message[length] = 0;
 }
 
+/// Where there is no better sentence than the status itself.
+stairwell_status refuse(stairwell_status status, char* message, std::size_t size) noexcept {
+    tell(message, size, stairwell_status_text(status));
+    return status;
+}
+
 /// Runs what may throw; every exception becomes a status.
 template <typename Body>
 stairwell_status guarded(char* message, std::size_t size, Body body) noexcept {
+    tell(message, size, "");
     try {
         return body();
     } catch (const std::invalid_argument& problem) {
         tell(message, size, problem.what());
         return STAIRWELL_BAD_VALUE;
     } catch (...) {  // bad_alloc and length_error: there is nothing else to run out of
-        tell(message, size, stairwell_status_text(STAIRWELL_NO_MEMORY));
-        return STAIRWELL_NO_MEMORY;
+        return refuse(STAIRWELL_NO_MEMORY, message, size);
     }
 }
 
@@ -202,7 +208,7 @@ const char* stairwell_status_text(int32_t status) noexcept {
         case STAIRWELL_BAD_VALUE:
             return "a value is outside its range";
         case STAIRWELL_BAD_COUNT:
-            return "the number of entries is not that of the lights";
+            return "the number of entries is not that of the lights, or above 4096";
         case STAIRWELL_BAD_INDEX:
             return "there is no such light";
         case STAIRWELL_NO_MEMORY:
@@ -344,10 +350,12 @@ stairwell_status stairwell_light_init(stairwell_light* light, size_t size) noexc
 stairwell_status stairwell_create(const stairwell_settings* settings, size_t count,
                                   stairwell_lights** lights, char* message,
                                   size_t message_size) noexcept {
-    if (!lights || (!settings && count > 0)) return STAIRWELL_NULL_ARGUMENT;
-    if (count > rc::kMostLights) return STAIRWELL_BAD_COUNT;
+    if (!lights || (!settings && count > 0))
+        return refuse(STAIRWELL_NULL_ARGUMENT, message, message_size);
+    if (count > rc::kMostLights) return refuse(STAIRWELL_BAD_COUNT, message, message_size);
     for (std::size_t i = 0; i < count; ++i) {
-        if (!hasItsSize(settings[i])) return STAIRWELL_BAD_STRUCT_SIZE;
+        if (!hasItsSize(settings[i]))
+            return refuse(STAIRWELL_BAD_STRUCT_SIZE, message, message_size);
     }
     return guarded(message, message_size, [&] {
         std::vector<rc::Settings> each(count);
@@ -391,9 +399,9 @@ stairwell_status stairwell_update(stairwell_lights* lights, const stairwell_ligh
 stairwell_status stairwell_reconfigure(stairwell_lights* lights, size_t light,
                                        const stairwell_settings* settings, char* message,
                                        size_t message_size) noexcept {
-    if (!lights || !settings) return STAIRWELL_NULL_ARGUMENT;
-    if (light >= lights->lights.count()) return STAIRWELL_BAD_INDEX;
-    if (!hasItsSize(*settings)) return STAIRWELL_BAD_STRUCT_SIZE;
+    if (!lights || !settings) return refuse(STAIRWELL_NULL_ARGUMENT, message, message_size);
+    if (light >= lights->lights.count()) return refuse(STAIRWELL_BAD_INDEX, message, message_size);
+    if (!hasItsSize(*settings)) return refuse(STAIRWELL_BAD_STRUCT_SIZE, message, message_size);
     return guarded(message, message_size, [&] {
         const rc::Settings asked = fromC(*settings);
         const std::string problem = lights->lights.reconfigure(light, asked);
@@ -425,7 +433,7 @@ stairwell_status stairwell_trace_stop(stairwell_lights* lights, size_t* bytes,
 
 stairwell_status stairwell_trace_replay(const void* trace, size_t trace_size, uint64_t* frames,
                                         char* message, size_t message_size) noexcept {
-    if (!trace) return STAIRWELL_NULL_ARGUMENT;
+    if (!trace) return refuse(STAIRWELL_NULL_ARGUMENT, message, message_size);
     return guarded(message, message_size, [&] {
         const rc::ReplayReport report =
             rc::replay(std::span(static_cast<const std::byte*>(trace), trace_size));

@@ -27,7 +27,8 @@
  * allocates nor waits nor looks at a clock. One set of lights is for one thread at a time;
  * different sets and the functions without a set are for any.
  *
- * Messages are cut to fit and always end in a 0; message may be NULL, and message_size 0.
+ * Messages are cut to fit and always end in a 0, and are empty after STAIRWELL_OK; message may be
+ * NULL, and message_size 0.
  */
 #ifndef STAIRWELL_H
 #define STAIRWELL_H
@@ -52,7 +53,7 @@ typedef enum stairwell_status {
     STAIRWELL_NULL_ARGUMENT = 1,
     STAIRWELL_BAD_STRUCT_SIZE = 2, /* not initialised, or of another version of the library */
     STAIRWELL_BAD_VALUE = 3,       /* the message, where there is one, names it */
-    STAIRWELL_BAD_COUNT = 4,       /* not the number of lights of the set */
+    STAIRWELL_BAD_COUNT = 4,       /* not the number of lights of the set, or too many for one */
     STAIRWELL_BAD_INDEX = 5,       /* no such light */
     STAIRWELL_NO_MEMORY = 6,
     STAIRWELL_BUFFER_TOO_SMALL = 7,

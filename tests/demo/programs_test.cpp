@@ -137,6 +137,9 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
         {{"--stats", file + "/below.json"}, file},
         {{"--screenshot", file + "/below.png"}, file},
         {{"--parameter", "bias_texels"}, "NAME=NUMBER"},
+        {{"--technique", "vsm", "--parameter", "bias_texels=auto"},
+         "--parameter is \"bias_texels=auto\", but bias_texels of technique vsm has no automatic "
+         "choice; must be 0 to 4"},
         {{"--parameter", "bias_texels=nan"}, "nan"},
         {{"--parameter", "size=1"}, "no parameter \"size\""},
         {{"--samples", "0"}, "--samples is 0"},

@@ -40,13 +40,16 @@ TEST(Technique, EveryRowIsCompleteAndHasItsFile) {
         EXPECT_FALSE(technique.title.empty());
         EXPECT_FALSE(technique.paper.empty());
         EXPECT_FALSE(technique.cost.empty());
-        EXPECT_EQ(technique.doNotHold.empty(), technique.doNotHoldBecause.empty())
-            << technique.name;
+        for (const renderer::Exemption& exemption : technique.doNotHold) {
+            EXPECT_FALSE(exemption.because.empty()) << technique.name;
+            EXPECT_FALSE(technique.holds(exemption.property)) << technique.name;
+        }
         EXPECT_LE(technique.parameters.size(), renderer::kMaxTechniqueParameters);
         for (const renderer::TechniqueParameter& parameter : technique.parameters) {
             EXPECT_LE(parameter.low, parameter.standard) << parameter.name;
             EXPECT_LE(parameter.standard, parameter.high) << parameter.name;
             EXPECT_FALSE(parameter.meaning.empty());
+            EXPECT_TRUE(!parameter.zeroIsAuto || parameter.low == 0) << parameter.name;
         }
         EXPECT_EQ(isFiltered(technique), technique.format != renderer::MapFormat::depth32f);
         // Rows that share a file must have its parameters in the same places.

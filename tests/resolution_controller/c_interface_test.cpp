@@ -291,6 +291,31 @@ TEST(CInterface, SaysWhatIsWrongWithSettingsAndCutsTheMessageToFit) {
     EXPECT_STREQ(tiny, "ligh");
     EXPECT_EQ(stairwell_create(&settings, 1, &none, tiny, 0), STAIRWELL_BAD_VALUE);
 
+    const auto said = [&](stairwell_status status) {
+        EXPECT_STREQ(message, stairwell_status_text(status));
+        std::fill(std::begin(message), std::end(message), 'x');
+        return status;
+    };
+    const auto create = [&](const stairwell_settings* s, std::size_t count, stairwell_lights** to) {
+        return said(stairwell_create(s, count, to, message, sizeof message));
+    };
+    std::fill(std::begin(message), std::end(message), 'x');
+    EXPECT_EQ(create(&settings, 1, nullptr), STAIRWELL_NULL_ARGUMENT);
+    EXPECT_EQ(create(nullptr, 1, &none), STAIRWELL_NULL_ARGUMENT);
+    EXPECT_EQ(create(&settings, 5000, &none), STAIRWELL_BAD_COUNT);
+    stairwell_settings unfilled{};
+    EXPECT_EQ(create(&unfilled, 1, &none), STAIRWELL_BAD_STRUCT_SIZE);
+    EXPECT_EQ(said(stairwell_reconfigure(nullptr, 0, &settings, message, sizeof message)),
+              STAIRWELL_NULL_ARGUMENT);
+    EXPECT_EQ(said(stairwell_trace_replay(nullptr, 0, nullptr, message, sizeof message)),
+              STAIRWELL_NULL_ARGUMENT);
+    stairwell_lights* empty = nullptr;
+    ASSERT_EQ(stairwell_create(nullptr, 0, &empty, message, sizeof message), STAIRWELL_OK);
+    EXPECT_STREQ(message, "");
+    EXPECT_EQ(said(stairwell_reconfigure(empty, 0, &settings, message, sizeof message)),
+              STAIRWELL_BAD_INDEX);
+    stairwell_destroy(empty);
+
     Lights lights(1);
     EXPECT_EQ(stairwell_reconfigure(lights.handle, 0, &settings, message, sizeof message),
               STAIRWELL_BAD_VALUE);

@@ -169,6 +169,20 @@ TEST(LightSet, LightsThatAreOffTakeNothing) {
     EXPECT_EQ(f.decisions[0].size, 128);
 }
 
+// As a damaged trace may hold it.
+TEST(LightSet, LowersAfterARestoredStateThatHasWaitedForeverAlready) {
+    Fixture f(1);
+    f.update({needing(2000)});
+    rc::ControllerState state = f.lights.light(0).state();
+    state.framesBelow = std::numeric_limits<std::int32_t>::max();
+    rc::HeldNeed need = f.lights.heldNeed(0);
+    need.framesBelow = std::numeric_limits<std::int32_t>::max();
+    f.lights.restore(0, state, need);
+    f.update({needing(200)});
+    EXPECT_EQ(f.decisions[0].size, 256);
+    EXPECT_EQ(f.lights.heldNeed(0).texels, 200);
+}
+
 TEST(LightSet, HoldsWithoutDataAndKeepsItsNeed) {
     Fixture f(2);
     f.update({needing(2000), needing(2000)}, 2 * 2048 * 2048);
