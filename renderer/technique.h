@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of shadow techniques. It exists once: menus, options, benchmark, tests, reports and
-// README loop over it. A new technique is one row in technique.cpp and one file
+// README loop over it. A new technique is one row in technique_table.cpp and one file
 // renderer/shaders/filters/<name>.glsl with the function
 //
 //   SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants
