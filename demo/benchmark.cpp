@@ -116,7 +116,11 @@ std::vector<const renderer::Technique*> chosenTechniques(const BenchmarkSettings
 
 std::vector<renderer::Scene> chosenScenes(const BenchmarkSettings& settings) {
     std::vector<renderer::Scene> chosen;
-    for (const std::string& name : settings.scenes) chosen.push_back(renderer::openScene(name));
+    for (const std::string& name : settings.scenes) {
+        chosen.push_back(renderer::openScene(name));
+        for (const std::string& note : chosen.back().notes)
+            std::fprintf(stderr, "shadow_bench: note: %s\n", note.c_str());
+    }
     if (settings.scenes.empty())
         for (const renderer::SceneEntry& entry : renderer::builtInScenes()) {
             // Errors are those of the sun's shadows, so lamps would only be paid for.

@@ -267,11 +267,17 @@ void writeSequence(const Options& options, demo::Viewer& viewer) {
     std::printf("%d pictures in %s\n", frames, options.sequence->string().c_str());
 }
 
+void tellNotes(const renderer::Scene& scene) {
+    for (const std::string& note : scene.notes)
+        std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
+}
+
 /// Pairs of frames for a design of the study.
 void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
     const renderer::HeadlessContext context;
     renderer::Renderer frame(context.info(), renderer::openScene(state.scene), options.edge,
                              options.edge);
+    tellNotes(frame.scene());
     const demo::FramePlan plan{
         .technique = &renderer::findTechnique(state.technique),
         .parameters = parametersOf(state),
@@ -320,6 +326,7 @@ void demonstrate(const Options& options) {
     if (options.headless) {
         const renderer::HeadlessContext context;
         demo::Viewer viewer(context.info(), state, options.width, options.height, shaders);
+        tellNotes(viewer.frame().scene());
         if (options.trace) viewer.run().startTrace(kTraceBytes);
         const int settlingFrames = viewer.settle();
         if (options.sequence)
@@ -332,6 +339,7 @@ void demonstrate(const Options& options) {
     }
     renderer::Window window("shadow_demo", options.width, options.height);
     demo::Viewer viewer(window.info(), state, options.width, options.height, shaders);
+    tellNotes(viewer.frame().scene());
     if (options.trace) viewer.run().startTrace(kTraceBytes);
     showViewer(window, viewer,
                {.frames = options.frames.value_or(0),

@@ -32,6 +32,9 @@ constexpr std::size_t kFramesPerTile = 8;
 // there for the others. A shadow that comes into view must show on it to ask for more: what is too
 // wide for the detail probe covers half a texel or more.
 constexpr int kUnseenTexels = 256;
+// A level is taken by what needs less than 80 % of it (lowerBelowPercent), and more than the next
+// lower one has.
+constexpr double kUnseenNeed = 0.78 * kUnseenTexels;
 static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
               renderer::DetailProbe::kFineEdge);
 
@@ -216,7 +219,7 @@ void ShadowRun::chooseTogether(View view) {
             data[map].histogram = recent;
         } else if (lights_->light(map).size() > kUnseenTexels) {
             data[map].kind = rc::LightData::Kind::radius;
-            data[map].radiusUv = settings_.slope.c / kUnseenTexels;
+            data[map].radiusUv = settings_.slope.c / kUnseenNeed;
         }
     }
     std::vector<rc::Decision> choices(maps);

@@ -73,37 +73,41 @@ class Interface {
 /// What the mouse does to the picture: turns, zooms, or moves the line of the split view.
 class Mouse {
   public:
-    void apply(const Viewer& viewer, ViewerState& state) {
+    void apply(const renderer::WindowInput& input, const Viewer& viewer, ViewerState& state) {
         const ImGuiIO& io = ImGui::GetIO();
         const bool overPicture = !io.WantCaptureMouse;
-        if (overPicture && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
-            held_ = nearLine(state) ? Held::line : Held::scene;
+        ImVec2 moved = io.MouseDelta;
+        if (overPicture && input.pressedAt) {
+            const ImVec2 pressed(static_cast<float>(input.pressedAt->x),
+                                 static_cast<float>(input.pressedAt->y));
+            held_ = nearLine(state, pressed) ? Held::line : Held::scene;
+            moved = {io.MousePos.x - pressed.x, io.MousePos.y - pressed.y};
+        }
         if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) held_ = Held::nothing;
         if (held_ == Held::line)
             state.splitAt = std::clamp(io.MousePos.x / io.DisplaySize.x, 0.0F, 1.0F);
         const renderer::OrbitCamera& own = viewer.sceneCamera();
-        const bool turned = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+        const bool turned = moved.x != 0 || moved.y != 0;
         if (held_ == Held::scene && turned) {
             // The path's share stays with the path.
             state.cameraYawDeg = std::remainder(
-                state.cameraYawDeg.value_or(own.yawDeg) - kDegreesPerPx * io.MouseDelta.x, 360.0F);
+                state.cameraYawDeg.value_or(own.yawDeg) - kDegreesPerPx * moved.x, 360.0F);
             state.cameraPitchDeg = std::clamp(
-                state.cameraPitchDeg.value_or(own.pitchDeg) + kDegreesPerPx * io.MouseDelta.y, 2.0F,
-                88.0F);
+                state.cameraPitchDeg.value_or(own.pitchDeg) + kDegreesPerPx * moved.y, 2.0F, 88.0F);
         }
         if (overPicture && io.MouseWheel != 0)
             state.cameraDistanceM = zoomed(state.cameraDistanceM.value_or(own.distanceM),
                                            std::pow(0.9F, io.MouseWheel), own);
-        if (nearLine(state) && overPicture) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        if (nearLine(state, io.MousePos) && overPicture)
+            ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     }
 
   private:
     enum class Held { nothing, scene, line };
 
-    static bool nearLine(const ViewerState& state) {
-        const ImGuiIO& io = ImGui::GetIO();
+    static bool nearLine(const ViewerState& state, const ImVec2& mouse) {
         return state.view == renderer::View::split &&
-               std::abs(io.MousePos.x - state.splitAt * io.DisplaySize.x) < kGrabPx;
+               std::abs(mouse.x - state.splitAt * ImGui::GetIO().DisplaySize.x) < kGrabPx;
     }
 
     Held held_ = Held::nothing;
@@ -224,7 +228,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
             state.pathPlace = std::fmod(state.pathPlace + seconds / kSecondsAround, 1.0);
 
         Interface::begin();
-        mouse.apply(viewer, state);
+        mouse.apply(input, viewer, state);
         PanelRequest request;
         labelSides(viewer);
         if (state.panel) request = drawPanel(viewer, history, message, texts, state);

@@ -91,6 +91,8 @@ std::vector<Lamp> ringOfSpots(std::size_t count, const Bounds& casters);
 struct Scene {
     std::string name;    ///< fit for a file's name
     std::string source;  ///< what makeScene() was asked for
+    /// What a model file held that is left out, or holds wrongly, a sentence each.
+    std::vector<std::string> notes;
     std::vector<SceneObject> objects;
     OrbitCamera camera;
     CameraPath cameraPath;

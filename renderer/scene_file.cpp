@@ -7,9 +7,14 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cctype>
 #include <cmath>
+#include <fstream>
+#include <new>
+#include <sstream>
 #include <stdexcept>
 
 #include "renderer/scenes/scenes.h"
@@ -21,6 +26,9 @@ constexpr Material kPlain{.albedo = {0.50F, 0.47F, 0.43F}, .gloss = 0.15F};
 /// Of the model's size, chosen by eye: the built-in scenes have about as much.
 constexpr double kSoftnessOfSize = 0.012;
 constexpr std::size_t kMostTriangles = 50'000'000;
+/// Of the ground under the model's lowest point, of the model's size: a floor of its own would
+/// otherwise show through it in scraps. Far less than the softness.
+constexpr float kGroundBelowOfSize = 1e-3F;
 
 [[noreturn]] void reject(const std::filesystem::path& file, const std::string& problem) {
     throw std::runtime_error(file.string() + ": " + problem);
@@ -58,10 +66,7 @@ Mesh meshOf(const std::filesystem::path& file, const aiMesh& own) {
                              std::to_string(i) + ": a coordinate is not a finite number");
         const glm::vec3 normal =
             own.HasNormals() ? glm::normalize(toGlm(own.mNormals[i])) : glm::vec3(0);
-        // Corners of triangles without an area have none.
-        mesh.vertices.push_back({position, isFinite(normal) && glm::length(normal) > 0.5F
-                                               ? normal
-                                               : glm::vec3(0, 1, 0)});
+        mesh.vertices.push_back({position, isFinite(normal) ? normal : glm::vec3(0)});
     }
     for (unsigned i = 0; i < own.mNumFaces; ++i) {
         const aiFace& face = own.mFaces[i];
@@ -77,12 +82,24 @@ Mesh meshOf(const std::filesystem::path& file, const aiMesh& own) {
     return mesh;
 }
 
-/// Fit for the name of a picture's file.
-std::string plainName(const std::filesystem::path& file) {
-    std::string name = file.stem().string();
-    for (char& letter : name)
-        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
-    return name.empty() ? "model" : name;
+/// Where the file has none and Assimp, in single precision and before the model is scaled, makes
+/// none: of very large or small coordinates.
+void addNormals(Mesh& mesh) {
+    std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0));
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a(mesh.vertices[mesh.indices[i]].position);
+        const glm::dvec3 b(mesh.vertices[mesh.indices[i + 1]].position);
+        const glm::dvec3 c(mesh.vertices[mesh.indices[i + 2]].position);
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            sums[mesh.indices[i + corner]] += glm::cross(b - a, c - a);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        glm::vec3& normal = mesh.vertices[i].normal;
+        if (glm::length(normal) > 0.5F) continue;
+        // Corners of triangles without an area have none.
+        const double length = glm::length(sums[i]);
+        normal = length > 0 ? glm::vec3(sums[i] / length) : glm::vec3(0, 1, 0);
+    }
 }
 
 std::string oneLine(std::string text) {
@@ -91,13 +108,98 @@ std::string oneLine(std::string text) {
     return text.empty() ? "not readable as a model" : text;
 }
 
-std::vector<SceneObject> objectsOf(const std::filesystem::path& file) {
+/// What Assimp finds wrong with a file that it reads nevertheless.
+class ImportNotes {
+  public:
+    ImportNotes() {
+        Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+        Assimp::DefaultLogger::get()->attachStream(&stream_, kSeverities);
+    }
+    ~ImportNotes() {
+        Assimp::DefaultLogger::get()->detachStream(&stream_, kSeverities);
+        Assimp::DefaultLogger::kill();
+    }
+    ImportNotes(const ImportNotes&) = delete;
+    ImportNotes& operator=(const ImportNotes&) = delete;
+
+    const std::vector<std::string>& all() const { return stream_.notes; }
+
+  private:
+    static constexpr unsigned kSeverities = Assimp::Logger::Warn | Assimp::Logger::Err;
+    struct Stream : Assimp::LogStream {
+        std::vector<std::string> notes;
+        void write(const char* message) override {
+            // "Warn,  T0: " goes before it.
+            const std::string note = oneLine(message);
+            const std::size_t start = note.find(": ");
+            const std::string told = start == std::string::npos ? note : note.substr(start + 2);
+            // Of what Assimp made of the file, as vertices that nothing uses.
+            if (told.rfind("Validation warning", 0) != 0) notes.push_back(told);
+        }
+    };
+    Stream stream_;
+};
+
+/// Assimp's reader of PLY never returns from a header without an end, and takes what follows for
+/// complete.
+void checkPly(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string line;
+    if (!std::getline(in, line) || line.substr(0, 3) != "ply") return;  // not one
+    bool ascii = false;
+    double elements = 0;
+    while (std::getline(in, line)) {
+        std::istringstream words(line);
+        std::string word, name;
+        words >> word;
+        if (word == "end_header") break;
+        if (word == "format") {
+            words >> word;
+            ascii = word == "ascii";
+        } else if (word == "element") {
+            double count = 0;
+            if (!(words >> name >> count) || !(count >= 0))
+                reject(file, "the header's line \"" + oneLine(line) + "\" has no count");
+            elements += count;
+        }
+    }
+    if (!in) reject(file, "ends within its header: there is no line \"end_header\"");
+    // A line, or at least a byte, for each.
+    double held = 0;
+    if (ascii) {
+        while (std::getline(in, line))
+            held += line.find_first_not_of(" \t\r") < line.size() ? 1 : 0;
+    } else {
+        held =
+            static_cast<double>(std::filesystem::file_size(file)) - static_cast<double>(in.tellg());
+    }
+    if (held < elements) {
+        std::ostringstream counts;
+        counts.precision(15);
+        counts << "its header announces " << elements << " elements, but only " << held
+               << (ascii ? " lines" : " bytes") << " follow";
+        reject(file, counts.str());
+    }
+}
+
+/// Fit for the name of a picture's file.
+std::string plainName(const std::filesystem::path& file) {
+    std::string name = file.stem().string();
+    for (char& letter : name)
+        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
+    return name.empty() ? "model" : name;
+}
+
+std::vector<SceneObject> objectsOf(const std::filesystem::path& file,
+                                   std::vector<std::string>& notes) {
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
     if (!std::filesystem::exists(status)) reject(file, "no such model file");
     if (!std::filesystem::is_regular_file(status)) reject(file, "is not a file");
     if (std::filesystem::file_size(file, error) == 0 && !error) reject(file, "is empty");
+    checkPly(file);
 
+    const ImportNotes found;
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -118,6 +220,7 @@ std::vector<SceneObject> objectsOf(const std::filesystem::path& file) {
             objects.push_back({own.mName.C_Str(), std::move(mesh), materialOf(*model, own)});
     }
     if (objects.empty()) reject(file, "holds no triangles");
+    for (const std::string& note : found.all()) notes.push_back(file.string() + ": " + note);
     return objects;
 }
 
@@ -127,7 +230,11 @@ Scene loadScene(const std::filesystem::path& file) {
     Scene scene;
     scene.name = plainName(file);
     scene.source = file.string();
-    scene.objects = objectsOf(file);
+    try {
+        scene.objects = objectsOf(file, scene.notes);
+    } catch (const std::bad_alloc&) {
+        reject(file, "needs more memory than there is");
+    }
     Bounds own = boundsOf(scene.objects.front().mesh);
     for (const SceneObject& object : scene.objects) {
         const Bounds bounds = boundsOf(object.mesh);
@@ -141,11 +248,16 @@ Scene loadScene(const std::filesystem::path& file) {
     if (!(longest > 0) || !std::isfinite(scale))
         reject(scene.source, "all of its triangles lie in one point");
     const glm::dvec3 foot = low + 0.5 * glm::dvec3(span.x, 0, span.z);
-    for (SceneObject& object : scene.objects)
+    for (SceneObject& object : scene.objects) {
         for (Vertex& vertex : object.mesh.vertices)
             vertex.position = glm::vec3(scale * (glm::dvec3(vertex.position) - foot));
+        addNormals(object.mesh);
+    }
 
-    scene.objects.insert(scene.objects.begin(), paving());
+    SceneObject ground = paving();
+    for (Vertex& vertex : ground.mesh.vertices)
+        vertex.position.y -= kGroundBelowOfSize * kModelSizeM;
+    scene.objects.insert(scene.objects.begin(), std::move(ground));
     scene.casters = casterBounds(scene.objects);
     const glm::vec3 size(scale * span);
     // The bounds' sphere and some of the shadow beside it.

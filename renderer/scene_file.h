@@ -15,8 +15,8 @@ namespace renderer {
 inline constexpr float kModelSizeM = 3;
 
 /// Throws std::runtime_error that names the file and what is wrong with it: missing, not a file,
-/// not readable as a model, without triangles, or with corners that are no numbers or all in one
-/// place.
+/// not readable as a model, cut short, without triangles, or with corners that are no numbers or
+/// all in one place. What of it was left out is in the scene's notes.
 Scene loadScene(const std::filesystem::path& file);
 
 /// Whether a source has a dot or a slash and is no built-in scene's name.

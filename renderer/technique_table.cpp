@@ -22,6 +22,11 @@ constexpr TechniqueParameter kBiasTexels = biasTexels(1.0F / 256);
 /// Without it hollow meshes and ground at grazing light have specks along their creases at every N:
 /// .39 RMSE in the knob under PCSS at N = 512, .10 with it. A wide kernel averages the specks away.
 constexpr TechniqueParameter kFacetBiasTexels = biasTexels(0.25F);
+/// Of a mean of compares under a wide kernel, beside that: hollow ground rises over the receiver's
+/// plane within the kernel and is in its own way at every N, in a pattern of its facets; on rolling
+/// terrain at grazing light 1/20 of the kernel's radius hides it. A shadow begins that share of its
+/// softness later where a caster touches a slope.
+constexpr float kHollowReaches = 1.0F / 16;
 constexpr TechniqueParameter kGaussian{
     .name = "gaussian",
     .meaning = "prefilter: 0 a box, 1 a Gaussian, of the disc's standard deviation",
@@ -59,7 +64,7 @@ constexpr TechniqueParameter kMapSamples{
 constexpr float kHalfRounding = 3.0F / 2048;  // 11 bits: a step is 2^-11 near 1
 constexpr float kSplitRounding = 3.0F / (1 << 20);
 
-constexpr TechniqueParameter kDepthMapParameters[] = {kBiasTexels};
+constexpr TechniqueParameter kDiscParameters[] = {kBiasTexels, biasReaches(kHollowReaches)};
 constexpr TechniqueParameter kHardParameters[] = {kFacetBiasTexels};
 constexpr Exemption kHardDoesNot[] = {
     {Property::softnessIndependentOfN, "it has no kernel: its edge is as wide as a texel"}};
@@ -71,6 +76,7 @@ constexpr TechniqueParameter kBilinear{
     .whole = true};
 constexpr TechniqueParameter kGridParameters[] = {
     kBiasTexels,
+    biasReaches(kHollowReaches),
     {.name = "samples",
      .meaning = "samples along the kernel's edge",
      .low = 1,
@@ -84,6 +90,7 @@ constexpr TechniqueParameter kGridParameters[] = {
 
 constexpr TechniqueParameter kTapParameters[] = {
     kBiasTexels,
+    biasReaches(kHollowReaches),
     {.name = "pattern",
      .meaning = "taps of 0 Poisson's, 1 Vogel's pattern",
      .standard = 1,
@@ -414,7 +421,7 @@ constexpr Technique kTechniques[] = {
     {.name = "pcf_disc",
      .title = "PCF, full disc",
      .paper = kPcfPaper,
-     .parameters = kDepthMapParameters,
+     .parameters = kDiscParameters,
      .cost = "pi (r/a)^2 texels a pixel, four to a gather: grows with N^2 at constant softness"},
     {.name = "pcf_grid",
      .title = "PCF, grid",

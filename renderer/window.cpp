@@ -21,6 +21,7 @@ std::string lastGlfwError() {
 struct Window::Handle {
     GLFWwindow* window = nullptr;
     WindowInput input;
+    glm::dvec2 mouse{0};
 
     static Handle& of(GLFWwindow* window) {
         return *static_cast<Handle*>(glfwGetWindowUserPointer(window));
@@ -31,6 +32,12 @@ struct Window::Handle {
         if (key == GLFW_KEY_ESCAPE) of(window).input.keys.push_back('\x1b');
         if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9))
             of(window).input.keys.push_back(static_cast<char>(key));
+    }
+    // What glfwGetCursorPos() says is where the mouse is after all events, on some systems.
+    static void onMove(GLFWwindow* window, double x, double y) { of(window).mouse = {x, y}; }
+    static void onButton(GLFWwindow* window, int button, int action, int) {
+        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
+            of(window).input.pressedAt = of(window).mouse;
     }
 };
 
@@ -49,6 +56,8 @@ Window::Window(const std::string& title, int widthPx, int heightPx)
     glfwMakeContextCurrent(window);
     glfwSetWindowUserPointer(window, handle_.get());
     glfwSetKeyCallback(window, Handle::onKey);
+    glfwSetCursorPosCallback(window, Handle::onMove);
+    glfwSetMouseButtonCallback(window, Handle::onButton);
     info_ = prepareCurrentContext("window");
     glfwSwapInterval(info_.softwareRasteriser ? 0 : 1);
 }

@@ -9,7 +9,9 @@
 //   }
 #pragma once
 
+#include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,10 @@ struct GLFWwindow;
 namespace renderer {
 
 struct WindowInput {
-    std::vector<char> keys;         ///< letters and digits pressed, upper case; '\x1b' is Esc
+    std::vector<char> keys;  ///< letters and digits pressed, upper case; '\x1b' is Esc
+    /// Where the mouse was when its left button went down, in the window's units from its upper
+    /// left corner: in a slow frame it is elsewhere by now.
+    std::optional<glm::dvec2> pressedAt;
     int widthPx = 0, heightPx = 0;  ///< of the framebuffer now; 0 while minimised
 };
 

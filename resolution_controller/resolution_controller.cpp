@@ -168,7 +168,7 @@ const char* text(Reason reason) noexcept {
         case Reason::demandMet:
             return "meets the demand";
         case Reason::waitingToLower:
-            return "waits before it is lowered";
+            return "a lower size has little room or would not have done for long";
         case Reason::atMinimum:
             return "smallest size allowed";
         case Reason::limitedByPercentile:

@@ -118,7 +118,7 @@ struct Frame {
 enum class Reason : std::uint8_t {
     // The size follows the demand:
     demandMet = 0,       ///< the smallest level that meets it
-    waitingToLower = 1,  ///< a lower level would do, but not yet for long enough
+    waitingToLower = 1,  ///< a lower level would do, but with little room or not yet for long
     atMinimum = 2,       ///< the demand is below the smallest level
     // The size is smaller than the demand; minRadiusUv says how far to enlarge the filter:
     limitedByPercentile = 3,  ///< it meets the percentile; some samples ask for more

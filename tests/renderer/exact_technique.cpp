@@ -347,15 +347,21 @@ std::optional<Wide> filteredVisibility(const Situation& s) {
 
 // --- Depth maps: sums of compares ---
 
+Wide kernelRadius(const Situation& s) {
+    return std::min(static_cast<Wide>(s.constants.kernel.x), static_cast<Wide>(1));
+}
+
 /// Share of light in a texel: its depth against the receiver's plane there.
 Wide compared(const Situation& s, int column, int row) {
     if (!s.inside(column, row)) return 1;
     const Wide n = s.map.edge;
     const Wide along = (column + 0.5L) / n - s.receiver.uv.x;
     const Wide across = (row + 0.5L) / n - s.receiver.uv.y;
-    const Wide plane = s.receiver.depth - s.receiver.depthError -
-                       s.parameter("bias_texels") * s.steepness() / n +
-                       s.receiver.depthGradient.x * along + s.receiver.depthGradient.y * across;
+    const Wide plane =
+        s.receiver.depth - s.receiver.depthError -
+        (s.parameter("bias_texels") / n + s.parameterOr("bias_reaches", 0) * kernelRadius(s)) *
+            s.steepness() +
+        s.receiver.depthGradient.x * along + s.receiver.depthGradient.y * across;
     return static_cast<Wide>(s.stored(column, row)) < std::min(plane, static_cast<Wide>(1)) ? 0 : 1;
 }
 
@@ -373,10 +379,6 @@ Wide tapAt(const Situation& s, Wide u, Wide v) {
         return bilinear(s, u, v, [&](int i, int j) { return compared(s, i, j); });
     return compared(s, static_cast<int>(std::floor(u * s.map.edge)),
                     static_cast<int>(std::floor(v * s.map.edge)));
-}
-
-Wide kernelRadius(const Situation& s) {
-    return std::min(static_cast<Wide>(s.constants.kernel.x), static_cast<Wide>(1));
 }
 
 Wide grid(const Situation& s) {

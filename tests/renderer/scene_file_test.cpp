@@ -116,6 +116,14 @@ TEST_F(SceneFile, NamesFileAndFaultInOneLine) {
         {written("noise.gltf", "{\"asset\""), ""},
         {written("cut.gltf", std::string(kGltf).substr(0, 700)), ""},
         {written("prose.xyz", "no model at all"), ""},
+        {written("header.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nprope"),
+         "ends within its header"},
+        {written("start.ply", "ply\n"), "ends within its header"},
+        {written("cut.ply", std::string(kPly).substr(0, std::string(kPly).rfind("\n3"))),
+         "its header announces "},
+        {written("many.ply", std::string(kPly).replace(std::string(kPly).find("vertex 4"), 8,
+                                                       "vertex 4000000000")),
+         "its header announces 40000000"},
         {written("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), ""},
         {written("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), ""},
         {written("beyond.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), ""},
@@ -129,6 +137,51 @@ TEST_F(SceneFile, NamesFileAndFaultInOneLine) {
         EXPECT_THAT(message, HasSubstr(fault)) << file;
         EXPECT_THAT(message, Not(HasSubstr("\n"))) << file;
         EXPECT_GT(message.size(), file.string().size() + 5) << message;
+    }
+}
+
+TEST_F(SceneFile, SaysWhatItLeavesOut) {
+    std::string gltf = kGltf;
+    ASSERT_TRUE(renderer::loadScene(written("whole.gltf", gltf)).notes.empty());
+    const renderer::Scene obj =
+        renderer::loadScene(written("bare.obj", "mtllib none.mtl\n" + std::string(kObj)));
+    ASSERT_FALSE(obj.notes.empty());
+    EXPECT_THAT(obj.notes.front(), StartsWith(obj.source + ": OBJ: "));
+    EXPECT_THAT(obj.notes.front(), HasSubstr("none.mtl"));
+}
+
+// 10^30 of a unit, and 10^-30: squares of neither are floats.
+TEST_F(SceneFile, NormalsAreThoseOfTheTrianglesAtAnyScale) {
+    for (const char* scale : {"e30", "e-30", ""}) {
+        std::string text;
+        for (const char* vertex : {"0 0 0", "1 0 0", "0 0 1", "0 1 0"}) {
+            text += "v";
+            for (const char* c = vertex; *c != 0; ++c)
+                if (*c != ' ') text += std::string(" ") + *c + scale;
+            text += "\n";
+        }
+        text += "f 1 2 3\nf 1 4 2\n";
+        const renderer::Scene scene = renderer::loadScene(written("scaled.obj", text));
+        const renderer::Mesh& mesh = scene.objects.back().mesh;
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const auto at = [&](std::size_t corner) {
+                return mesh.vertices[mesh.indices[i + corner]];
+            };
+            const glm::vec3 normal = glm::normalize(
+                glm::cross(at(1).position - at(0).position, at(2).position - at(0).position));
+            // Two triangles at a right angle share an edge: its corners lie between.
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                EXPECT_GT(glm::dot(at(corner).normal, normal), 0.7F) << scale << ' ' << i;
+        }
+    }
+}
+
+// A floor that is the lowest part of the model is not that of the scene.
+TEST_F(SceneFile, TheGroundLiesBelowTheModel) {
+    const renderer::Scene scene = renderer::loadScene(written("low.obj", kObj));
+    for (const renderer::Vertex& vertex : scene.objects.front().mesh.vertices) {
+        EXPECT_LT(vertex.position.y, -1e-3F);
+        EXPECT_GT(vertex.position.y, -1e-2F);
     }
 }
 

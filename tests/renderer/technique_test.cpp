@@ -80,7 +80,8 @@ TEST(Technique, RefusesUnknownNamesAndValuesOutOfRange) {
                 HasSubstr("technique \"pfc\" is not known; known are: hard, pcf_disc"));
     renderer::ParameterValues values = disc.standardParameters();
     EXPECT_EQ(message([&] { setParameter(disc, values, "bias", 1); }),
-              "technique pcf_disc has no parameter \"bias\"; it has: bias_texels");
+              "technique pcf_disc has no parameter \"bias\"; it has: bias_texels, "
+              "bias_reaches");
     EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", -1e-9F); }),
                 HasSubstr("is -1e-09, must be in [0, 4]"));
     EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", NAN); }), HasSubstr("nan"));

@@ -6,9 +6,11 @@
 // Source: W. Reeves, D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987; receiver
 // plane: shared/receiver.glsl.
 // Map: linear light depth, 0 near. Reads pi (r/a)^2 texels and a rim, four to a gather: 37.8 at r = 3.47 a.
-// Parameter: bias_texels (shared/depth_compare.glsl).
+// Parameters: bias_texels, bias_reaches (shared/depth_compare.glsl).
 
 SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
-    PlaneCompare plane = planeCompare(receiver, shadow, PARAMETER_bias_texels);
-    return discVisibility(map, receiver.uv, kernelRadiusUv(receiver, shadow), shadow, plane);
+    real radius = kernelRadiusUv(receiver, shadow);
+    PlaneCompare plane = planeCompare(
+        receiver, shadow, kernelBiasTexels(PARAMETER_bias_texels, PARAMETER_bias_reaches, radius, shadow));
+    return discVisibility(map, receiver.uv, radius, shadow, plane);
 }

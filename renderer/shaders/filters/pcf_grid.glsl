@@ -5,13 +5,14 @@
 // Source: W. Reeves, D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987; the four
 // variants: W. Donnelly, A. Lauritzen, "Variance shadow maps", I3D 2006, section 4.
 // Map: linear light depth, 0 near. Reads n^2 texels, four times as many bilinearly.
-// Parameters: bias_texels (shared/depth_compare.glsl); samples n along an edge; bilinear; gaussian. The kernel has the
+// Parameters: bias_texels, bias_reaches (shared/depth_compare.glsl); samples n along an edge; bilinear; gaussian. The kernel has the
 // deviation of the disc: a square of half-width .866 r, or a Gaussian of deviation r/2 out to 1.25 r.
 
 SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
     real radius = kernelRadiusUv(receiver, shadow);
     if (!reachesMap(receiver.uv, real(2.0) * radius + shadow.map.y)) return real(1.0);
-    PlaneCompare plane = planeCompare(receiver, shadow, PARAMETER_bias_texels);
+    PlaneCompare plane = planeCompare(
+        receiver, shadow, kernelBiasTexels(PARAMETER_bias_texels, PARAMETER_bias_reaches, radius, shadow));
     int n = int(PARAMETER_samples);
     bool gaussian = PARAMETER_gaussian != real(0.0);
     real halfWidth = gaussian ? real(1.25) : real(0.8660254037844386);  // in radii

@@ -18,13 +18,18 @@ struct PlaneCompare {
 };
 
 // biasTexels: how far along the steepest descent, in texels, a stored depth may be off: rasterisers snap vertices to
-// 1/256 texel.
+// 1/256 texel, and within a wide kernel hollow ground rises over the receiver's plane (kernelBiasTexels()).
 SHARED_FUNCTION PlaneCompare planeCompare(ShadowReceiver receiver, ShadowConstants shadow, real biasTexels) {
     PlaneCompare plane;
     plane.perTexel = receiver.depthGradient * shadow.map.y;
     real bias = receiver.depthError + biasTexels * (abs(plane.perTexel.x) + abs(plane.perTexel.y));
     plane.atOrigin = receiver.depth - bias - dot(receiver.depthGradient, receiver.uv);
     return plane;
+}
+
+// Counted in texels: a part of the map's own, and one of the kernel's radius that is the same whatever N.
+SHARED_FUNCTION real kernelBiasTexels(real texels, real reaches, real radiusUv, ShadowConstants shadow) {
+    return texels + reaches * radiusUv * shadow.map.x;
 }
 
 // The receiver's depth at a texel's centre. Never beyond 1, so that a cleared texel is always lit; ties are lit.
