@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <span>
 
 #include "demo/demo_stats.h"
@@ -134,27 +135,31 @@ std::optional<std::filesystem::path> ownStateFile() {
     return std::nullopt;
 }
 
-demo::ViewerState stateOf(const Options& options) {
-    demo::ViewerState state;
+/// That of the window's last time, which nobody asked for; absent where it is of no use.
+std::optional<demo::ViewerState> keptState(const Options& options) {
+    const auto own = ownStateFile();
+    if (!inWindow(options) || options.state || !own || !std::filesystem::exists(*own))
+        return std::nullopt;
+    try {
+        demo::ViewerState state = demo::readViewerState(*own);
+        if (state.slopeFile && !options.slope.file && !std::filesystem::exists(*state.slopeFile)) {
+            std::fprintf(stderr,
+                         "shadow_demo: note: %s, the slope of the last time, is not there; "
+                         "the published one is in use\n",
+                         state.slopeFile->c_str());
+            state.slopeFile.reset();
+        }
+        return state;
+    } catch (const std::runtime_error& error) {
+        std::fprintf(stderr, "shadow_demo: note: %s; beginning anew\n", error.what());
+        return std::nullopt;
+    }
+}
+
+demo::ViewerState stateOf(const Options& options, const std::optional<demo::ViewerState>& kept) {
+    demo::ViewerState state = kept.value_or(demo::ViewerState());
     if (options.state && std::filesystem::exists(*options.state))
         state = demo::readViewerState(*options.state);
-    if (const auto own = ownStateFile();
-        inWindow(options) && !options.state && own && std::filesystem::exists(*own)) {
-        try {
-            state = demo::readViewerState(*own);
-            if (state.slopeFile && !options.slope.file &&
-                !std::filesystem::exists(*state.slopeFile)) {
-                std::fprintf(stderr,
-                             "shadow_demo: note: %s, the slope of the last time, is not there; "
-                             "the published one is in use\n",
-                             state.slopeFile->c_str());
-                state.slopeFile.reset();
-            }
-        } catch (const std::runtime_error& error) {
-            // Nobody asked for this file.
-            std::fprintf(stderr, "shadow_demo: note: %s; beginning anew\n", error.what());
-        }
-    }
     state.scene = options.scene.value_or(state.scene);
     state.technique = options.technique.value_or(state.technique);
     renderer::findTechnique(state.technique);  // before its parameters
@@ -314,7 +319,8 @@ void demonstrate(const Options& options) {
     if (options.edge < 16 || options.edge > 4096)
         throw std::invalid_argument("--edge is " + std::to_string(options.edge) +
                                     ", must be 16 to 4096");
-    const demo::ViewerState state = stateOf(options);
+    const std::optional<demo::ViewerState> kept = keptState(options);
+    const demo::ViewerState state = stateOf(options, kept);
     if (options.writeFrames) return writeStudyFrames(options, state);
     if (state.slopeFile)  // of the published default the stats say as much
         for (const std::string& note : demo::loadSlope(state.slopeFile, state.audience).notes)
@@ -338,7 +344,22 @@ void demonstrate(const Options& options) {
         return;
     }
     renderer::Window window("shadow_demo", options.width, options.height);
-    demo::Viewer viewer(window.info(), state, options.width, options.height, shaders);
+    std::unique_ptr<demo::Viewer> opened;
+    const auto open = [&](const demo::ViewerState& shown) {
+        opened = std::make_unique<demo::Viewer>(window.info(), shown, options.width, options.height,
+                                                shaders);
+    };
+    try {
+        open(state);
+    } catch (const std::exception& error) {
+        if (!kept) throw;
+        std::fprintf(stderr,
+                     "shadow_demo: note: the state of the last time cannot be shown: %s; "
+                     "beginning anew\n",
+                     error.what());
+        open(stateOf(options, std::nullopt));
+    }
+    demo::Viewer& viewer = *opened;
     tellNotes(viewer.frame().scene());
     if (options.trace) viewer.run().startTrace(kTraceBytes);
     showViewer(window, viewer,

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "demo/demand_glsl.h"
@@ -38,6 +39,12 @@ constexpr double kUnseenNeed = 0.78 * kUnseenTexels;
 static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
               renderer::DetailProbe::kFineEdge);
 
+std::string numberText(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", number);
+    return text;
+}
+
 ChosenResolution chosenFrom(const rc::Decision& choice, const rc::Frame& about) {
     return {.resolution = choice.size,
             .automatic = true,
@@ -69,11 +76,10 @@ Softness chooseSoftness(const renderer::Renderer& frame, std::optional<double> r
     softness.radiusM = radiusUv ? *radiusUv * extent : radiusM.value_or(frame.scene().softnessM);
     softness.radiusUv = radiusUv.value_or(softness.radiusM / extent);
     if (!(softness.radiusUv >= 0 && softness.radiusUv <= 1))
-        throw std::invalid_argument("radius is " + std::to_string(softness.radiusM) + " m, " +
-                                    std::to_string(softness.radiusUv) +
-                                    " of the shadow map's extent of " + std::to_string(extent) +
-                                    " m in scene " + frame.scene().name +
-                                    "; must be at least 0 and no wider than the map");
+        throw std::invalid_argument(
+            "radius is " + numberText(softness.radiusM) + " m, " + numberText(softness.radiusUv) +
+            " of the shadow map's extent of " + numberText(extent) + " m in scene " +
+            frame.scene().name + "; must be at least 0 and no wider than the map");
     return softness;
 }
 

@@ -39,6 +39,8 @@ void FrameSettings::validate(const GlInfo& info) const {
     checkMap("", {resolution, radiusUv, minRadiusUv, fadeWeight, fadeFrom}, info);
     for (std::size_t i = 0; i < maps.size(); ++i)
         checkMap("maps[" + std::to_string(i) + "].", maps[i], info);
+    if (parameters)
+        checkParameters(technique != nullptr ? *technique : techniques().front(), *parameters);
     if (samplesPerPixelEdge < 1 || samplesPerPixelEdge > 16)
         rejectSetting("samplesPerPixelEdge", std::to_string(samplesPerPixelEdge), "in [1, 16]");
 }

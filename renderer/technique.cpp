@@ -158,6 +158,16 @@ std::string numberText(float number) {
     return text;
 }
 
+void checkParameter(const Technique& technique, const TechniqueParameter& parameter, float value) {
+    const bool inRange = value >= parameter.low && value <= parameter.high;
+    if (!inRange || (parameter.whole && value != std::floor(value)))
+        throw std::invalid_argument(
+            "parameter " + std::string(parameter.name) + " of technique " +
+            std::string(technique.name) + " is " + numberText(value) + ", must be " +
+            (parameter.whole ? "a whole number in [" : "in [") + numberText(parameter.low) + ", " +
+            numberText(parameter.high) + "]");
+}
+
 }  // namespace
 
 const Technique& findTechnique(std::string_view name) {
@@ -174,15 +184,13 @@ void setParameter(const Technique& technique, ParameterValues& values, std::stri
         throw std::invalid_argument("technique " + std::string(technique.name) +
                                     " has no parameter \"" + std::string(name) +
                                     "\"; it has: " + namesOf(technique.parameters));
-    const TechniqueParameter& parameter = technique.parameters[*slot];
-    const bool inRange = value >= parameter.low && value <= parameter.high;
-    if (!inRange || (parameter.whole && value != std::floor(value)))
-        throw std::invalid_argument(
-            "parameter " + std::string(name) + " of technique " + std::string(technique.name) +
-            " is " + numberText(value) + ", must be " +
-            (parameter.whole ? "a whole number in [" : "in [") + numberText(parameter.low) + ", " +
-            numberText(parameter.high) + "]");
+    checkParameter(technique, technique.parameters[*slot], value);
     values[*slot] = value;
+}
+
+void checkParameters(const Technique& technique, const ParameterValues& values) {
+    for (std::size_t i = 0; i < technique.parameters.size(); ++i)
+        checkParameter(technique, technique.parameters[i], values[i]);
 }
 
 }  // namespace renderer

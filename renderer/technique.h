@@ -126,4 +126,7 @@ const Technique& findTechnique(std::string_view name);
 void setParameter(const Technique& technique, ParameterValues& values, std::string_view name,
                   float value);
 
+/// Throws as setParameter() for the first of the technique's parameters that it would refuse.
+void checkParameters(const Technique& technique, const ParameterValues& values);
+
 }  // namespace renderer

@@ -2,6 +2,7 @@
 #include "resolution_controller/light_set.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "resolution_controller/sentence.h"
@@ -23,21 +24,40 @@ Decision decide(ResolutionController& controller, const LightData& data,
     return controller.hold(frame);
 }
 
-/// The rule of ResolutionController::choose, on the need itself.
-void follow(HeldNeed& held, std::int32_t need, const Settings& settings, bool atOnce) noexcept {
-    const bool below =
-        std::int64_t{need} * 100 < std::int64_t{held.texels} * settings.lowerBelowPercent;
-    if (atOnce || need >= held.texels) {
-        held = {.texels = need};
-    } else if (!below) {
-        held.framesBelow = held.largestBelow = 0;
-    } else {
-        held.largestBelow = std::max(held.largestBelow, need);
-        if (held.framesBelow < settings.lowerAfterFrames - 1)
-            ++held.framesBelow;
-        else
-            held = {.texels = held.largestBelow};
+/// As ResolutionController::choose lowers a size. True: the need fell.
+bool fallsLate(HeldNeed& held, std::int32_t need, const Settings& settings,
+               bool remembersFalls) noexcept {
+    // So much less that a level could be saved.
+    const auto isBelow = [&settings](std::int64_t texels, std::int64_t others) {
+        return texels * 100 < others * settings.lowerBelowPercent;
+    };
+    if (held.trialFrames > 0) {
+        --held.trialFrames;
+        if (isBelow(held.fellTo, need)) {
+            held.regretted = held.fellTo;
+            held.trialFrames = 0;
+        }
     }
+    if (!isBelow(need, held.texels)) {
+        held.texels = std::max(held.texels, need);
+        held.framesBelow = held.largestBelow = 0;
+        return false;
+    }
+    held.largestBelow = std::max(held.largestBelow, need);
+    if (held.framesBelow < settings.lowerAfterFrames - 1) {
+        ++held.framesBelow;
+        return false;
+    }
+    const std::int32_t lower = held.largestBelow;
+    held.framesBelow = held.largestBelow = 0;
+    const bool again =
+        held.regretted > 0 && !isBelow(lower, held.regretted) && !isBelow(held.regretted, lower);
+    if (again && remembersFalls) return false;
+    constexpr std::int32_t kLongest = std::numeric_limits<std::int32_t>::max() / 2;
+    held.texels = held.fellTo = lower;
+    held.trialFrames = 2 * std::min(settings.lowerAfterFrames, kLongest);
+    held.regretted = 0;
+    return true;
 }
 
 }  // namespace
@@ -48,8 +68,16 @@ std::string validate(const HeldNeed& need) {
         return sentence("heldNeed.texels", need.texels,
                         "it and largestBelow must be in 0 to 65536");
     }
-    if (need.framesBelow < 0) {
-        return sentence("heldNeed.framesBelow", need.framesBelow, "must be at least 0");
+    for (const std::int32_t frames : {need.framesBelow, need.trialFrames}) {
+        if (frames < 0) {
+            return sentence("heldNeed.framesBelow", frames,
+                            "it and trialFrames must be at least 0");
+        }
+    }
+    for (const std::int32_t texels : {need.fellTo, need.regretted}) {
+        if (texels < 0 || texels > 65536) {
+            return sentence("heldNeed.fellTo", texels, "it and regretted must be in 0 to 65536");
+        }
     }
     return {};
 }
@@ -101,7 +129,14 @@ void LightSet::decideAlone(Light& light, const LightData& data, Decision& decisi
     } else if (!isHeld(decision.reason)) {
         const bool atOnce =
             !light.before.hadData || light.before.cutPending || data.frame.cameraCut;
-        follow(light.need, decision.need, light.controller.settings(), atOnce);
+        HeldNeed& held = light.need;
+        if (atOnce) {
+            held = {.texels = decision.need};
+            return;
+        }
+        if (data.kind != held.fellBy) held.trialFrames = 0;
+        if (fallsLate(held, decision.need, light.controller.settings(), remembersFalls_))
+            held.fellBy = data.kind;
     }
 }
 

@@ -129,11 +129,12 @@ class Replay {
         for (std::size_t i = 0; i < count; ++i) {
             fields(in_, settings[i]);
             fields(in_, states[i]);
-            fields(in_, needs[i]);
+            fields(in_, needs[i], minor_ >= 2);
         }
         requireGood();
         try {
             lights_.emplace(settings);
+            if (minor_ < 2) lights_->forgetFalls();
             for (std::size_t i = 0; i < count; ++i) {
                 lights_->restore(i, states[i], needs[i]);
                 last_.emplace_back(states[i].last);
@@ -171,7 +172,7 @@ class Replay {
     TracedDecision decidedAgain(std::size_t light) const {
         const Decision& now = decisions_[light];
         TracedDecision decision(now);
-        if (minor_ > 0) return decision;
+        if (minor_ >= 1) return decision;
         const TracedDecision& last = last_[light];
         if (isHeld(now.reason) && now.size == last.size) {
             decision.minRadiusUv = last.minRadiusUv;
@@ -228,7 +229,7 @@ bool TraceWriter::begin(const LightSet& lights) noexcept {
     for (std::size_t i = 0; i < lights.count(); ++i) {
         fields(out, lights.light(i).settings());
         fields(out, lights.light(i).state());
-        fields(out, lights.heldNeed(i));
+        fields(out, lights.heldNeed(i), true);
     }
     frames_ = lost_ = 0;
     lights_ = lights.count();

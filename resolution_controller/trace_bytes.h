@@ -128,9 +128,11 @@ void fields(Stream& stream, S& s) noexcept {
             s.slopeRefused);
 }
 
+/// Before 1.2 no fall was remembered.
 template <typename Stream, Is<HeldNeed> S>
-void fields(Stream& stream, S& s) noexcept {
+void fields(Stream& stream, S& s, bool withFalls) noexcept {
     numbers(stream, s.texels, s.framesBelow, s.largestBelow);
+    if (withFalls) numbers(stream, s.fellTo, s.trialFrames, s.regretted, s.fellBy);
 }
 
 /// What a trace keeps of a decision; the rest follows from it.

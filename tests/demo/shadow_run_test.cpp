@@ -346,7 +346,7 @@ TEST(SeveralMaps, EachHasItsOwnSizeAndTogetherTheyKeepToTheBudget) {
     const auto unseen = std::ranges::find(run.maps(), 0, &demo::ChosenResolution::need);
     ASSERT_NE(unseen, run.maps().end());
     EXPECT_EQ(unseen->reason, "no penumbra of it in view");
-    EXPECT_LT(unseen->resolution, 512);
+    EXPECT_EQ(unseen->resolution, 256);
 
     const double worstWithout = std::ranges::max(run.maps(), {}, [](const auto& map) {
                                     return map.artifactRatio;

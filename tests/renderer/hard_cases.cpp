@@ -37,6 +37,14 @@ std::vector<HardReceiver> around(std::initializer_list<double> depths,
     return receivers;
 }
 
+/// From the middle of the map, in texels.
+struct Place {
+    double right, up;
+    const char* name;
+};
+constexpr Place kPlaces[] = {
+    {0, 0, ""}, {0.21, -0.37, ", between texels"}, {4.2, -1.37, ", at the map's edge"}};
+
 template <class Real>
 void widen(HardError& found, const Technique& technique, const HardCase& hard,
            const Variant& variant, renderer::Storage storage) {
@@ -49,16 +57,19 @@ void widen(HardError& found, const Technique& technique, const HardCase& hard,
     const auto constants = constantsFor(technique, hard.edge, hard.radiusUv, parameters);
     const CpuTechnique<Real> filter(technique, map, constants, storage);
     const CpuTechnique<double> wide(technique, map, constants, renderer::Storage::exact);
-    for (const HardReceiver& at : hard.receivers) {
-        const auto receiver = receiverAt(0.5, 0.5, at.depth, at.gradient);
-        const auto exact = exactVisibility(technique, map, receiver, constants);
-        const double truth = exact ? static_cast<double>(*exact) : wide(receiver);
-        const double error = std::abs(filter(receiver) - truth);
-        if (error <= found.worst) continue;
-        char text[64];
-        std::snprintf(text, sizeof text, "%s, receiver %.6g", hard.name.c_str(), at.depth);
-        found = {error, text};
-    }
+    for (const HardReceiver& at : hard.receivers)
+        for (const Place& place : kPlaces) {
+            const auto receiver = receiverAt(0.5 + place.right / hard.edge,
+                                             0.5 + place.up / hard.edge, at.depth, at.gradient);
+            const auto exact = exactVisibility(technique, map, receiver, constants);
+            const double truth = exact ? static_cast<double>(*exact) : wide(receiver);
+            const double error = std::abs(filter(receiver) - truth);
+            if (error <= found.worst) continue;
+            char text[96];
+            std::snprintf(text, sizeof text, "%s, receiver %.6g%s", hard.name.c_str(), at.depth,
+                          place.name);
+            found = {error, text};
+        }
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct HardReceiver {
     glm::dvec2 gradient = glm::dvec2(0);
 };
 
-/// A square map, row by row, and the receivers to hold over its middle texel.
+/// A square map, row by row, and the receivers to hold over its middle texel, between texels
+/// and over its edge.
 struct HardCase {
     std::string name;
     int edge = 9;

@@ -86,6 +86,11 @@ TEST(Technique, RefusesUnknownNamesAndValuesOutOfRange) {
                 HasSubstr("is -1e-09, must be in [0, 4]"));
     EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", NAN); }), HasSubstr("nan"));
     setParameter(disc, values, "bias_texels", 2);
+    EXPECT_NO_THROW(checkParameters(disc, values));
+    renderer::ParameterValues spoilt = values;
+    spoilt[1] = NAN;
+    EXPECT_THAT(message([&] { checkParameters(disc, spoilt); }),
+                "parameter bias_reaches of technique pcf_disc is nan, must be in [0, 2]");
     EXPECT_EQ(values[0], 2.0F);
     values = vsm.standardParameters();
     EXPECT_THAT(message([&] { setParameter(vsm, values, "gaussian", 0.5F); }),

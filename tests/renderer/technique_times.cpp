@@ -133,9 +133,7 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
                     ratio(row, find("vsm")).c_str());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int measure(int argc, char** argv) {
     std::vector<double> radiiTexels;
     std::vector<std::string> only;
     for (int i = 2; i < argc; ++i) {
@@ -172,4 +170,15 @@ int main(int argc, char** argv) {
         std::string(renderer::PassClock(context.info()).method()).c_str());
     for (const double radius : radiiTexels) measure(context.info(), argv[1], radius, only);
     return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return measure(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "technique_times: %s\n", error.what());
+        return 1;
+    }
 }

@@ -48,6 +48,13 @@ run(${CMAKE_COMMAND} -S "${folder}/alone" -B "${folder}/alone/build" -G "${GENER
     -DCMAKE_PREFIX_PATH=${folder}/prefix)
 run(${CMAKE_COMMAND} --build "${folder}/alone/build")
 
+# As a part of an engine that has no version of its own.
+file(WRITE "${folder}/host/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)
+project(host LANGUAGES CXX)
+add_subdirectory(${SOURCE}/resolution_controller controller)
+")
+run(${CMAKE_COMMAND} -S "${folder}/host" -B "${folder}/host/build" -G "${GENERATOR}")
+
 file(COPY "${SOURCE}/examples/engine" DESTINATION "${folder}")
 foreach(language CXX C)
   run(${CMAKE_COMMAND} -S "${folder}/engine" -B "${folder}/${language}" -G "${GENERATOR}"

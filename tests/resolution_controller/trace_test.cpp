@@ -3,12 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <random>
 #include <span>
 #include <vector>
 
+#include "resolution_controller/trace_bytes.h"
 #include "tests/resolution_controller/counting_new.h"
 
 namespace {
@@ -136,11 +138,31 @@ TEST(Trace, WritingAllocatesNothing) {
 
 constexpr std::size_t kMinorAt = 10;  // in the header, after name and major version
 
+template <typename... T>
+std::size_t bytesOf(const T&... values) {
+    std::array<std::byte, 1000> room{};
+    rc::ByteWriter out(room);
+    (fields(out, values), ...);
+    return out.used();
+}
+
+/// As an older version would have written it: before 1.2 without the falls of needs.
+std::vector<std::byte> ofMinor(unsigned char minor, std::span<const std::byte> trace,
+                               std::size_t lights) {
+    std::vector<std::byte> bytes(trace.begin(), trace.end());
+    bytes.at(kMinorAt) = std::byte{minor};
+    std::ptrdiff_t at = 16;
+    for (std::size_t i = 0; minor < 2 && i < lights; ++i) {
+        at += static_cast<std::ptrdiff_t>(bytesOf(rc::Settings{}, rc::ControllerState{}) + 12);
+        bytes.erase(bytes.begin() + at, bytes.begin() + at + 13);
+    }
+    return bytes;
+}
+
 /// Another value in place of a trace's last number: the least radius of its last decision.
 std::vector<std::byte> endingWith(double minRadiusUv, std::span<const std::byte> trace,
                                   unsigned char minor) {
-    std::vector<std::byte> bytes(trace.begin(), trace.end());
-    bytes.at(kMinorAt) = std::byte{minor};
+    std::vector<std::byte> bytes = ofMinor(minor, trace, 1);
     const auto bits = std::bit_cast<std::uint64_t>(minRadiusUv);
     for (std::size_t i = 0; i < sizeof bits; ++i)
         bytes[bytes.size() - sizeof bits + i] = static_cast<std::byte>(bits >> (8 * i));
@@ -177,8 +199,34 @@ TEST(Trace, ReplaysOlderVersionsByTheRulesOfTheirTime) {
         EXPECT_EQ(problem(6.0 / 512, 1), "");
         EXPECT_THAT(problem(6.0 / 512, 0), HasSubstr("light 0: recorded 512 (held: no data"));
         EXPECT_THAT(problem(3.0 / 512, 1), HasSubstr("light 0: recorded 512 (held: no data"));
-        EXPECT_THAT(problem(6.0 / 512, 2),
-                    HasSubstr("trace, byte 16: minor version is 2: must be at most 1"));
+        EXPECT_EQ(problem(6.0 / 512, 2), "");
+        EXPECT_THAT(problem(6.0 / 512, 3),
+                    HasSubstr("trace, byte 16: minor version is 3: must be at most 2"));
+    }
+}
+
+// Before 1.2 a need fell again as often as it had been taken back.
+TEST(Trace, ReplaysFallsOfNeedsByTheRulesOfTheirTime) {
+    for (const bool forgetting : {true, false}) {
+        rc::LightSet lights(std::vector<rc::Settings>(2));
+        if (forgetting) lights.forgetFalls();
+        std::vector<std::byte> buffer(1 << 20);
+        rc::TraceWriter writer(buffer);
+        writer.begin(lights);
+        std::vector<rc::Decision> decisions(2);
+        for (int frame = 0; frame < 400; ++frame) {
+            const auto needing = [](double texels) {
+                return rc::LightData{.kind = rc::LightData::Kind::radius,
+                                     .radiusUv = 3.47 / texels};
+            };
+            const std::vector<rc::LightData> data{needing(frame % 100 < 50 ? 1000 : 500),
+                                                  needing(1000)};
+            const rc::Budget budget{.texels = 3 * 512 * 512};
+            lights.update(data, decisions, budget);
+            writer.frame(data, budget, decisions);
+        }
+        EXPECT_EQ(rc::replay(ofMinor(1, writer.bytes(), 2)).same, forgetting);
+        EXPECT_EQ(rc::replay(ofMinor(2, writer.bytes(), 2)).same, !forgetting);
     }
 }
 
