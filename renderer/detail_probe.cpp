@@ -12,10 +12,13 @@ namespace {
 // Texels around a tile that its pixels' walks may enter, so that no caster on a border is missed.
 constexpr int kMargin = 3 * DetailProbe::kWidestTexels + 2;
 constexpr int kDrawnEdge = DetailProbe::kTileEdge + 2 * kMargin;
-// Samples that may be tips and corners; a bar as wide as a pixel gives one for every 16 pixels of
-// its length.
-constexpr std::uint32_t kLeastSamples = 3;
+// Pixels that may be tips and corners.
+constexpr std::uint32_t kLeastPixels = 48;
 constexpr std::uint32_t kTopShare = 16;  // one in so many is left out
+
+GLuint groups(int pixels, int perGroup) {
+    return static_cast<GLuint>((pixels + perGroup - 1) / perGroup);
+}
 
 /// A step that visits every tile and is never the next one: what moves through the map is met soon.
 int tileOf(std::uint64_t submission) {
@@ -29,7 +32,7 @@ int tileOf(std::uint64_t submission) {
 int detailOf(const DemandPass::Counters& counters) {
     constexpr std::size_t kBins = 64;
     const std::uint32_t total = std::accumulate(counters.begin(), counters.begin() + kBins, 0U);
-    const std::uint32_t above = std::max(kLeastSamples, total / kTopShare);
+    const std::uint32_t above = std::max(kLeastPixels, total / kTopShare);
     if (total <= above) return 0;
     std::uint32_t passed = 0;
     for (std::size_t bin = kBins; bin-- > 0;) {
@@ -69,6 +72,14 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     const int tile = tileOf(answers.ring.submissions());
     const glm::ivec2 lowest =
         glm::ivec2(tile % kTilesAlong, tile / kTilesAlong) * kTileEdge - glm::ivec2(kMargin);
+    const glm::dvec2 tileUv = glm::dvec2(lowest + kMargin) / static_cast<double>(kFineEdge);
+    const PixelRect pixels =
+        frame.pixelsBetween(view, tileUv, tileUv + 1.0 / static_cast<double>(kTilesAlong));
+    if (pixels.empty()) {  // an answer like another
+        answers.ring.begin();
+        answers.ring.end();
+        return;
+    }
     const double edgeUv = static_cast<double>(kDrawnEdge) / kFineEdge;
     const glm::dvec2 lowestUv = glm::dvec2(lowest) / static_cast<double>(kFineEdge);
 
@@ -83,17 +94,16 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     glBindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, shadowBlock_.name());
     frame.drawCasters(target_, kDrawnEdge, shadow);
 
-    const SparsePixels pixels = sparsePixels(frame, view, answers.ring.submissions() / kTiles);
     glUseProgram(program_.name());
     glBindTextureUnit(0, inputs->positions);
     glBindTextureUnit(1, inputs->planes);
     glBindTextureUnit(2, depths_.name());
     glUniform4f(0, rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster);
     glUniform1ui(1, inputs->hasKernel ? 1 : 0);
-    glUniform3i(2, pixels.cell.x, pixels.cell.y, pixels.cell.z);
+    glUniform4i(2, pixels.x, pixels.y, pixels.width, pixels.height);
     glUniform4i(3, lowest.x, lowest.y, kMargin, kDrawnEdge);
     answers.ring.begin();
-    glDispatchCompute(pixels.groupsX, pixels.groupsY, 1);
+    glDispatchCompute(groups(pixels.width, 16), groups(pixels.height, 8), 1);
     answers.ring.end();
     frame.bindConstants(view);
 }

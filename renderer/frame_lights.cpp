@@ -91,6 +91,15 @@ void Renderer::useViews(std::vector<LightView> fitted) {
                                                                  widthPx_, heightPx_));
 }
 
+PixelRect Renderer::pixelsBetween(std::size_t view, const glm::dvec2& lowUv,
+                                  const glm::dvec2& highUv) const {
+    LightView between = views_.at(view);
+    ViewPart& part = between.window.part;
+    part.lowUv = glm::max(part.lowUv, lowUv);
+    part.highUv = glm::min(part.highUv, highUv);
+    return renderer::servedPixels(between, scene_.camera, surfaces_, widthPx_, heightPx_);
+}
+
 void Renderer::makeVisibilities() {
     lastTechnique_ = nullptr;
     if (widthPx_ == 0) return;

@@ -115,6 +115,9 @@ class Renderer {
     std::span<const LightView> lightViews() const { return views_; }
     /// The pixels that each of them can matter to; a frame draws nothing of it for the others.
     std::span<const PixelRect> servedPixels() const { return served_; }
+    /// Bounds of those that may show what lies between two places on a map of the last frame.
+    PixelRect pixelsBetween(std::size_t view, const glm::dvec2& lowUv,
+                            const glm::dvec2& highUv) const;
     /// The sun's, or its first cascade's.
     const ShadowWindow& window() const { return views_.front().window; }
     std::size_t lights() const { return 1 + scene_.lamps.size(); }

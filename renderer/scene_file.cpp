@@ -7,6 +7,7 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
@@ -182,6 +183,20 @@ void checkPly(const std::filesystem::path& file) {
     }
 }
 
+/// Assimp asks for as much memory as a binary glTF's first chunk says that it holds.
+void checkGlb(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::array<unsigned char, 20> head{};
+    in.read(reinterpret_cast<char*>(head.data()), head.size());
+    if (!in || std::string(head.begin(), head.begin() + 4) != "glTF") return;
+    const std::uintmax_t announced =
+        head[12] + 256U * (head[13] + 256U * (head[14] + 256U * head[15]));
+    const std::uintmax_t held = std::filesystem::file_size(file) - head.size();
+    if (announced > held)
+        reject(file, "its first chunk is to have " + std::to_string(announced) +
+                         " bytes, but only " + std::to_string(held) + " follow");
+}
+
 /// Fit for the name of a picture's file.
 std::string plainName(const std::filesystem::path& file) {
     std::string name = file.stem().string();
@@ -198,6 +213,7 @@ std::vector<SceneObject> objectsOf(const std::filesystem::path& file,
     if (!std::filesystem::is_regular_file(status)) reject(file, "is not a file");
     if (std::filesystem::file_size(file, error) == 0 && !error) reject(file, "is empty");
     checkPly(file);
+    checkGlb(file);
 
     const ImportNotes found;
     Assimp::Importer importer;

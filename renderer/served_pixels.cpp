@@ -17,7 +17,7 @@ PixelRect servedPixels(const LightView& view, const OrbitCamera& camera, const B
     if (!(fromM < toM && part.lowUv.x < part.highUv.x && part.lowUv.y < part.highUv.y)) return {};
     ConvexBody body = viewVolume(camera, aspect, fromM, toM);
     cutToBox(body, surfaces);
-    if (view.window.lampAt) cutToPyramid(body, view.window, part.lowUv, part.highUv);
+    if (part.lowUv != kAllReceivers.lowUv) cutToPyramid(body, view.window, part.lowUv, part.highUv);
     const glm::dvec3 eye(camera.eye());
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));

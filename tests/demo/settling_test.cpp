@@ -164,4 +164,30 @@ TEST(Settling, StaysUnderABudget) {
 #endif
 }
 
+// Every tile of the detail probe has its turn twice, in a view where thin casters ask for more than
+// the filter.
+TEST(Settling, StaysWhileTheDetailProbeGoesRound) {
+    renderer::Renderer frame(gl(), renderer::makeScene("terrain"), kSmall.x, kSmall.y);
+    ShadowRun::Settings settings;
+    settings.technique = &renderer::findTechnique("pcf_taps");
+    settings.parameters = settings.technique->standardParameters();
+    settings.radiusUv = 3 * demo::chooseSoftness(frame, {}, {}).radiusUv;
+    ShadowRun run(frame, gl(), settings);
+    run.settle();
+    constexpr int kRound = 128;  // 16 tiles, one in eight frames
+    int size = 0, detail = 0;
+    for (int i = 0; i < 3 * kRound; ++i) {
+        run.step();
+        glFinish();
+        if (i == kRound) {
+            size = run.chosen().resolution;
+            detail = run.chosen().detailTexels;
+            EXPECT_GT(detail, 0) << "nothing thin is found";
+        } else if (i > kRound) {
+            ASSERT_EQ(run.chosen().detailTexels, detail) << i;
+            ASSERT_EQ(run.chosen().resolution, size) << i;
+        }
+    }
+}
+
 }  // namespace

@@ -93,7 +93,8 @@ TEST(HardCases, ExponentsAtAndBeyondOverflowKeepToTheFormula) {
         for (const float exponent : {1.0F, highest})
             EXPECT_LT(
                 worstError(evsm, Precision::asStored, {{"positive_exponent", exponent}}).worst,
-                0.02)
+                // At 1 the least variance is less than what rounding makes of moments of e^2.
+                exponent == 1 ? 0.08 : 0.02)
                 << name << " " << exponent;
         renderer::ParameterValues values = evsm.standardParameters();
         EXPECT_THROW(setParameter(evsm, values, "positive_exponent", highest + 1),

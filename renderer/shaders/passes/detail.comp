@@ -13,7 +13,7 @@ layout(std430, binding = 0) buffer Counters { uint counters[STAIRWELL_DEMAND_COU
 
 layout(location = 0) uniform vec4 rule;  // in the order of StairwellDemandRule
 layout(location = 1) uniform uint hasKernel;
-layout(location = 2) uniform ivec3 cell;  // x, y of the pixel in the first cell, z the cells' edge
+layout(location = 2) uniform ivec4 pixels;  // xy of the first that may lie under the tile, zw how many
 layout(location = 3) uniform ivec4 tile;  // xy texel of the finer map in the tile's corner, z its margin, w its edge
 
 // A caster at least so many times as long as it is wide.
@@ -76,8 +76,8 @@ float pixelDetail(ivec2 pixel) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * cell.z + cell.xy;
-    if (any(greaterThanEqual(pixel, ivec2(view.viewport.xy)))) return;
-    float texels = pixelDetail(pixel);
+    ivec2 id = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(id, pixels.zw))) return;
+    float texels = pixelDetail(pixels.xy + id);
     if (texels > 0.0) atomicAdd(counters[stairwellDemandCounter(texels)], 1u);
 }
