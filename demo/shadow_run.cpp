@@ -41,7 +41,7 @@ static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
 
 std::string numberText(double number) {
     char text[32];
-    std::snprintf(text, sizeof text, "%g", number);
+    std::snprintf(text, sizeof text, "%.10g", number);
     return text;
 }
 

@@ -167,6 +167,16 @@ std::string reloadShaders(Viewer& viewer, const std::optional<std::filesystem::p
     return "shaders of " + folder->string() + " are in use";
 }
 
+/// To what could be drawn, after what the driver has refused. Where that is refused too, by now,
+/// the message about it stays, and the picture as it is.
+void goBack(Viewer& viewer, const ViewerState& before) {
+    try {
+        viewer.show(before);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "shadow_demo: %s\n", error.what());
+    }
+}
+
 /// Which map is on which side of the split view's line.
 void labelSides(const Viewer& viewer) {
     const ViewerState& state = viewer.state();
@@ -232,6 +242,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         PanelRequest request;
         labelSides(viewer);
         if (state.panel) request = drawPanel(viewer, history, message, texts, state);
+        const ViewerState before = viewer.state();
         try {
             viewer.show(state);
         } catch (const std::exception& error) {
@@ -239,7 +250,13 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         }
         if (request.useTypedSlope) message = useSlope(viewer, texts.slopeFile.data());
         if (request.usePublishedSlope) message = useSlope(viewer, std::nullopt);
-        viewer.step(state.timePasses ? &clock : nullptr);
+        try {
+            viewer.step(state.timePasses ? &clock : nullptr);
+        } catch (const std::exception& error) {
+            if (shown == 0) throw;
+            message = error.what();
+            goBack(viewer, before);
+        }
         if (request.screenshot) message = savePicture(viewer, options.pictureFolder);
         window.copyFrom(viewer.framebuffer(), viewer.frame().widthPx(), viewer.frame().heightPx());
         Interface::end();

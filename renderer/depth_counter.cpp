@@ -62,17 +62,20 @@ void DepthCounter::take(bool wait) {
     underWay_ = nullptr;
 }
 
+void DepthCounter::prepare(const ShaderLibrary& shaders) {
+    if (program_.name() != 0) return;
+    program_ = compiled(shaders);
+    constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    counters_ = makeBuffer(nullptr, sizeof(DepthHistogram), access, "depth counters");
+    mapped_ = static_cast<const std::uint32_t*>(
+        glMapNamedBufferRange(counters_.name(), 0, sizeof(DepthHistogram), access));
+    if (mapped_ == nullptr)
+        throw std::runtime_error("depth counter: the driver cannot map its buffer");
+}
+
 const DepthHistogram& DepthCounter::count(const ShaderLibrary& shaders, const Texture& map,
                                           int resolution) {
-    if (program_.name() == 0) {
-        program_ = compiled(shaders);
-        constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-        counters_ = makeBuffer(nullptr, sizeof(DepthHistogram), access, "depth counters");
-        mapped_ = static_cast<const std::uint32_t*>(
-            glMapNamedBufferRange(counters_.name(), 0, sizeof(DepthHistogram), access));
-        if (mapped_ == nullptr)
-            throw std::runtime_error("depth counter: the driver cannot map its buffer");
-    }
+    prepare(shaders);
     take(false);
     if (underWay_ == nullptr) submit(map, resolution);
     if (!newest_) take(true);

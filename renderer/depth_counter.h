@@ -19,8 +19,11 @@ class DepthCounter {
     DepthCounter(const DepthCounter&) = delete;
     DepthCounter& operator=(const DepthCounter&) = delete;
 
-    /// Counts the N x N depths in the corner of `map`; returns the newest count there is. Compiles
-    /// its shader at the first call and throws std::runtime_error where that fails.
+    /// Compiles its shader, if it has not been. Throws std::runtime_error where that fails.
+    void prepare(const ShaderLibrary& shaders);
+
+    /// Counts the N x N depths in the corner of `map`; returns the newest count there is. Throws as
+    /// prepare() would.
     const DepthHistogram& count(const ShaderLibrary& shaders, const Texture& map, int resolution);
 
     /// Takes its shader from here, if it has been compiled; throws as count() does, and then it

@@ -227,8 +227,6 @@ void Renderer::enterLayers(const Technique& technique, const ParameterValues& as
                            std::size_t view) {
     if (!hasLayers(technique)) return;
     f32::ShadowConstants& shadow = shadows_[view];
-    while (depthCounters_.size() < views_.size())
-        depthCounters_.push_back(std::make_unique<DepthCounter>());
     const Layers layers = placeLayers(
         technique, asked,
         depthCounters_[view]->count(shaders_, maps_[view].depths, static_cast<int>(shadow.map.x)));

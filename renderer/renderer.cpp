@@ -152,6 +152,12 @@ void Renderer::ensureMap(std::size_t view, int resolution, int samples) {
     Map& map = maps_[view];
     const int edge = std::max(resolution, reservedEdge_);
     if (edge == map.edge && samples == map.samples) return;
+    GLint mostSamples = 1;
+    glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &mostSamples);
+    if (samples > 1 && samples > mostSamples)
+        throw std::invalid_argument("parameter map_samples is " + std::to_string(samples) +
+                                    ", the driver allows at most " + std::to_string(mostSamples) +
+                                    " (" + info_.renderer + ")");
     // The old one first: two maps at once may be more than there is room for.
     map = {};
     map.depths = makeTexture(GL_DEPTH_COMPONENT32F, edge, edge, "shadow map");
@@ -199,6 +205,11 @@ void Renderer::prepare(const Technique& technique) {
     for (const LightView& view : views_)
         lookupProgram(technique, view.window.part != kAllReceivers);
     mapFilter_.prepare(technique);
+    while (hasLayers(technique) && depthCounters_.size() < views_.size()) {
+        auto counter = std::make_unique<DepthCounter>();
+        counter->prepare(shaders_);
+        depthCounters_.push_back(std::move(counter));
+    }
 }
 
 const Program& Renderer::lookupProgram(const Technique& technique, bool ofPart) {

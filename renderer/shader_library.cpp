@@ -70,6 +70,15 @@ bool take(std::string_view& text, std::string_view prefix) {
     return true;
 }
 
+/// Lines are numbered through all files, so that a driver that says 0 for every file (Mesa, of what
+/// it finds out after the parser) names the right one nevertheless: so many to each.
+constexpr std::size_t kLinesOfAFile = 10'000;
+
+std::string lineDirective(std::size_t line, std::size_t file) {
+    return "#line " + std::to_string(file * kLinesOfAFile + line) + " " + std::to_string(file) +
+           "\n";
+}
+
 /// One line of a driver's log: Mesa "1:12(5): error: ...", NVIDIA "1(12) : error ...", others
 /// "ERROR: 1:12: ...".
 std::string locatedLine(std::string_view line, const std::vector<std::string>& files) {
@@ -77,18 +86,20 @@ std::string locatedLine(std::string_view line, const std::vector<std::string>& f
     std::string_view severity;
     for (const std::string_view word : {"ERROR: ", "WARNING: "})
         if (take(rest, word)) severity = word;
-    const auto file = takeNumber(rest);
-    if (!file || *file >= files.size()) return std::string(line);
+    const auto named = takeNumber(rest);
+    if (!named) return std::string(line);
     const bool inBrackets = take(rest, "(");
     if (!inBrackets && !take(rest, ":")) return std::string(line);
     const auto number = takeNumber(rest);
     if (!number || (inBrackets && !take(rest, ")"))) return std::string(line);
+    const std::size_t file = *number / kLinesOfAFile;
+    if (file >= files.size()) return std::string(line);
     if (!inBrackets && take(rest, "("))
         rest.remove_prefix(std::min(rest.find(')') + 1, rest.size()));  // column
     rest = trimmed(rest);
     take(rest, ":");
     std::ostringstream located;
-    located << files[*file] << ":" << *number << ": " << severity << trimmed(rest);
+    located << files[file] << ":" << *number % kLinesOfAFile << ": " << severity << trimmed(rest);
     return located.str();
 }
 
@@ -104,11 +115,11 @@ class Expander {
         const std::string& source = library_.text(path, includedFrom);
         const std::size_t number = out.files.size();
         out.files.push_back(library_.place() + path);
-        out.text += "#line 1 " + std::to_string(number) + "\n";
+        out.text += lineDirective(1, number);
 
         std::istringstream lines(source);
         std::string line;
-        for (int lineNumber = 1; std::getline(lines, line); ++lineNumber) {
+        for (std::size_t lineNumber = 1; std::getline(lines, line); ++lineNumber) {
             const std::optional<std::string> included = includedName(line);
             if (!included) {
                 out.text += line + "\n";
@@ -116,8 +127,7 @@ class Expander {
             }
             const std::string here = library_.place() + path + ":" + std::to_string(lineNumber);
             expand(resolve(*included, here), here, out);
-            out.text +=
-                "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
+            out.text += lineDirective(lineNumber + 1, number);
         }
         open_.pop_back();
     }

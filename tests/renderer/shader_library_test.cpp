@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <algorithm>
 #include <fstream>
 
 #include "renderer/gl_context.h"
@@ -32,7 +33,7 @@ TEST(ShaderLibrary, PutsIncludesInPlaceAndNumbersTheFiles) {
     const ShaderLibrary library(
         ShaderLibrary::Files{{"a.frag", "one\n#include \"b.glsl\"\ntwo\n"}, {"b.glsl", "inner\n"}});
     const renderer::ExpandedShader expanded = expandShader(library, "a.frag", {});
-    EXPECT_THAT(expanded.text, HasSubstr("#line 1 0\none\n#line 1 1\ninner\n#line 3 0\ntwo\n"));
+    EXPECT_THAT(expanded.text, HasSubstr("#line 1 0\none\n#line 10001 1\ninner\n#line 3 0\ntwo\n"));
     EXPECT_EQ(expanded.files,
               (std::vector<std::string>{"renderer/shaders/a.frag", "renderer/shaders/b.glsl"}));
 }
@@ -56,11 +57,14 @@ TEST(ShaderLibrary, NamesMissingCircularAndMalformedIncludesWithTheirPlace) {
 
 TEST(ShaderLibrary, TranslatesWhatDriversReport) {
     const std::vector<std::string> files = {"a.frag", "b.glsl"};
-    EXPECT_EQ(renderer::locatedLog("1:12(5): error: bad\n", files),
-              "b.glsl:12: error: bad");  // Mesa
+    EXPECT_EQ(renderer::locatedLog("1:10012(5): error: bad\n", files),
+              "b.glsl:12: error: bad");  // Mesa's parser
+    EXPECT_EQ(renderer::locatedLog("0:10012(5): error: bad\n", files),
+              "b.glsl:12: error: bad");  // and what comes after it
     EXPECT_EQ(renderer::locatedLog("0(7) : error C1503: bad\n", files),
-              "a.frag:7: error C1503: bad");                                              // NVIDIA
-    EXPECT_EQ(renderer::locatedLog("ERROR: 1:3: bad\n", files), "b.glsl:3: ERROR: bad");  // others
+              "a.frag:7: error C1503: bad");  // NVIDIA
+    EXPECT_EQ(renderer::locatedLog("ERROR: 1:10003: bad\n", files),
+              "b.glsl:3: ERROR: bad");  // others
     EXPECT_EQ(renderer::locatedLog("no place here\n", files), "no place here");
 }
 
@@ -80,6 +84,21 @@ TEST(ShaderLibrary, CompileErrorsNameOurFileAndLineThroughIncludes) {
     EXPECT_THAT(message, HasSubstr("shader renderer/shaders/passes/lookup.frag does not compile"));
     EXPECT_THAT(message, HasSubstr("renderer/shaders/filters/pcf_disc.glsl:3: error"));
     EXPECT_THAT(message, HasSubstr("unknownName"));
+    // What the driver finds out later: of a parameter that there is not, and of a type.
+    files = ShaderLibrary::embedded().files();
+    std::string& vsm = files["filters/vsm.glsl"];
+    const std::string parameter = "PARAMETER_bleeding";
+    const std::size_t at = vsm.rfind(parameter);
+    ASSERT_NE(at, std::string::npos);
+    vsm.replace(at, parameter.size(), "PARAMETER_leaking");
+    const auto line =
+        1 + std::count(vsm.begin(), vsm.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    renderer::Renderer other(context.info(), renderer::makeScene("planar_occluder"), 8, 8,
+                             ShaderLibrary(files));
+    EXPECT_THAT(messageOf([&] {
+                    other.render({.technique = &renderer::findTechnique("vsm"), .resolution = 8});
+                }),
+                HasSubstr("renderer/shaders/filters/vsm.glsl:" + std::to_string(line) + ": error"));
     EXPECT_THAT(message, HasSubstr("PARAMETER_bias_texels=shadow.parameters[0][0]"));
 }
 
