@@ -20,13 +20,13 @@ constexpr TechniqueParameter kBiasTexels = biasTexels(1.0F / 256);
 /// Of a compare that may see one texel alone: its centre, up to half a texel from the receiver on
 /// either axis, may lie on the next facet, whose slope may differ by half from the receiver's.
 /// Without it hollow meshes and ground at grazing light have specks along their creases at every N:
-/// .39 RMSE in the knob under PCSS at N = 512, .10 with it. A wide kernel averages the specks away.
+/// .39 RMSE in the knob under PCSS at N = 512, .10 with it. Wide kernels have kHollowReaches.
 constexpr TechniqueParameter kFacetBiasTexels = biasTexels(0.25F);
 /// Of a mean of compares under a wide kernel, beside that: hollow ground rises over the receiver's
 /// plane within the kernel and is in its own way at every N, in a pattern of its facets; on rolling
-/// terrain at grazing light 1/20 of the kernel's radius hides it. A shadow begins that share of its
-/// softness later where a caster touches a slope.
-constexpr float kHollowReaches = 1.0F / 16;
+/// terrain at grazing light an eighth of the kernel's radius hides it. A shadow begins that share
+/// of its softness later where a caster touches a slope.
+constexpr float kHollowReaches = 1.0F / 8;
 constexpr TechniqueParameter kGaussian{
     .name = "gaussian",
     .meaning = "prefilter: 0 a box, 1 a Gaussian, of the disc's standard deviation",

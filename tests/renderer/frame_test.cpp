@@ -374,7 +374,7 @@ TEST(MapFilter, SeveralSamplesOfATexelKnowTheShareThatIsCovered) {
     EXPECT_GE(rows, 16);
     const Technique& vsm = renderer::findTechnique("vsm");
     if (most < 16) {
-        EXPECT_THROW(drawnTexels(frame, vsm, 16), std::runtime_error);
+        EXPECT_THROW(drawnTexels(frame, vsm, 16), std::invalid_argument);
         EXPECT_NO_THROW(drawnTexels(frame, vsm, 1)) << "and it goes on working";
     }
 }
