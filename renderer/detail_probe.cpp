@@ -12,12 +12,15 @@ namespace {
 // Texels around a tile that its pixels' walks may enter, so that no caster on a border is missed.
 constexpr int kMargin = 3 * DetailProbe::kWidestTexels + 2;
 constexpr int kDrawnEdge = DetailProbe::kTileEdge + 2 * kMargin;
-// Pixels that may be tips and corners.
-constexpr std::uint32_t kLeastPixels = 48;
+// One pixel of each cell is asked: a bar as wide as a pixel gives a sample for every 4 pixels of
+// its length.
+constexpr int kCellEdge = 2;
+// Samples that may be tips and corners.
+constexpr std::uint32_t kLeastSamples = 12;
 constexpr std::uint32_t kTopShare = 16;  // one in so many is left out
 
-GLuint groups(int pixels, int perGroup) {
-    return static_cast<GLuint>((pixels + perGroup - 1) / perGroup);
+GLuint groups(int cells, int perGroup) {
+    return static_cast<GLuint>((cells + perGroup - 1) / perGroup);
 }
 
 /// A step that visits every tile and is never the next one: what moves through the map is met soon.
@@ -32,7 +35,7 @@ int tileOf(std::uint64_t submission) {
 int detailOf(const DemandPass::Counters& counters) {
     constexpr std::size_t kBins = 64;
     const std::uint32_t total = std::accumulate(counters.begin(), counters.begin() + kBins, 0U);
-    const std::uint32_t above = std::max(kLeastPixels, total / kTopShare);
+    const std::uint32_t above = std::max(kLeastSamples, total / kTopShare);
     if (total <= above) return 0;
     std::uint32_t passed = 0;
     for (std::size_t bin = kBins; bin-- > 0;) {
@@ -54,6 +57,7 @@ DetailProbe::DetailProbe(const ShaderLibrary& shaders, const std::string& demand
 Program DetailProbe::makeDetailProgram(const ShaderLibrary& shaders) const {
     return makeComputeProgram(withDemand(shaders, demandGlsl_), "passes/detail.comp",
                               {.defines = {{"MAP_SAMPLER", "sampler2D"},
+                                           {"CELL", std::to_string(kCellEdge)},
                                            {"WIDEST_TEXELS", std::to_string(kWidestTexels)}},
                                .substitutions = {{"demand", kDemandInclude}}});
 }
@@ -100,10 +104,14 @@ void DetailProbe::submit(const Renderer& frame, const DemandRule& rule, std::siz
     glBindTextureUnit(2, depths_.name());
     glUniform4f(0, rule.c, rule.pixelBound, rule.contrastExponent, rule.texelsPerCaster);
     glUniform1ui(1, inputs->hasKernel ? 1 : 0);
-    glUniform4i(2, pixels.x, pixels.y, pixels.width, pixels.height);
+    const glm::ivec2 first = glm::ivec2(pixels.x, pixels.y) / kCellEdge;
+    const glm::ivec2 last =
+        glm::ivec2(pixels.x + pixels.width - 1, pixels.y + pixels.height - 1) / kCellEdge;
+    const glm::ivec2 cells = last - first + 1;
+    glUniform4i(2, first.x, first.y, cells.x, cells.y);
     glUniform4i(3, lowest.x, lowest.y, kMargin, kDrawnEdge);
     answers.ring.begin();
-    glDispatchCompute(groups(pixels.width, 16), groups(pixels.height, 8), 1);
+    glDispatchCompute(groups(cells.x, 16), groups(cells.y, 8), 1);
     answers.ring.end();
     frame.bindConstants(view);
 }

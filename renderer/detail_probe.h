@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Thin casters that slip between the texels of a coarse map (Kreuzer, section 7): a map of
-// kFineEdge texels is drawn tile by tile, and all visible pixels under each tile are asked whether
-// what lies before them there is narrow, and how many texels it takes. What a tile said holds until
-// its turn comes again.
+// kFineEdge texels is drawn tile by tile, and of the visible pixels under each tile one in four,
+// always the same ones, are asked whether what lies before them there is narrow, and how many
+// texels it takes. What a tile said holds until its turn comes again.
 //
 //   DetailProbe probe(ShaderLibrary::embedded(), demandGlsl);
 //   every few frames, after frame.render():
@@ -71,7 +71,7 @@ class DetailProbe {
     std::vector<std::unique_ptr<Answers>> answers_;
 };
 
-/// The texels that the pixels ask for, from counters as demand.glsl has them: a few pixels at the
+/// The texels that the samples ask for, from counters as demand.glsl has them: a few samples at the
 /// top are left out, since the tip of anything is narrow. 0 for too few.
 int detailOf(const DemandPass::Counters& counters);
 

@@ -227,6 +227,29 @@ TEST(Viewer, ShowsAnotherStateOrStaysAsItWas) {
     EXPECT_EQ(viewer.state(), state);
 }
 
+// What a frame refuses is found out while it is drawn; the state before can be drawn again.
+TEST(Viewer, DrawsAgainAfterWhatTheDriverRefuses) {
+    demo::Viewer viewer(gl(), smallState(View::picture), 64, 36);
+    viewer.settle();
+    const ViewerState good = viewer.state();
+    ViewerState wide = good;
+    wide.technique = "vsm";
+    wide.resolution = gl().maxResolution;
+    wide.radiusM = viewer.softness().radiusM / viewer.softness().radiusUv;
+    viewer.show(wide);
+    EXPECT_THAT(messageOf([&] { viewer.step(); }), HasSubstr("texels wide, is within the"));
+    ViewerState sampled = good;
+    sampled.technique = "vsm";
+    sampled.parameters["vsm"] = renderer::findTechnique("vsm").standardParameters();
+    setParameter(renderer::findTechnique("vsm"), sampled.parameters["vsm"], "map_samples", 16);
+    viewer.show(sampled);
+    EXPECT_THAT(messageOf([&] { viewer.step(); }), HasSubstr("map_samples is 16"));
+    viewer.show(good);
+    viewer.step();
+    EXPECT_EQ(viewer.state(), good);
+    EXPECT_FALSE(viewer.picture(1).values.empty());
+}
+
 TEST(ViewerState, IsReadAsItWasWritten) {
     const tests::TemporaryFolder folder;
     const auto file = folder.path() / "state.json";

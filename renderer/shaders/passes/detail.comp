@@ -13,7 +13,8 @@ layout(std430, binding = 0) buffer Counters { uint counters[STAIRWELL_DEMAND_COU
 
 layout(location = 0) uniform vec4 rule;  // in the order of StairwellDemandRule
 layout(location = 1) uniform uint hasKernel;
-layout(location = 2) uniform ivec4 pixels;  // xy of the first that may lie under the tile, zw how many
+// Cells of CELL x CELL pixels that may lie under the tile: xy the first one, zw how many.
+layout(location = 2) uniform ivec4 cells;
 layout(location = 3) uniform ivec4 tile;  // xy texel of the finer map in the tile's corner, z its margin, w its edge
 
 // A caster at least so many times as long as it is wide.
@@ -75,9 +76,24 @@ float pixelDetail(ivec2 pixel) {
                            widthUv);
 }
 
+// One of a cell, always the same, or an answer would differ from the next in a still view; without a pattern, or a bar
+// that is a pixel wide could pass between all of them. The mixing is pcg2d's (M. Jarzynski, M. Olano, "Hash functions
+// for GPU rendering", JCGT 2020).
+ivec2 pixelOf(ivec2 cellIndex) {
+    uvec2 v = uvec2(cellIndex) * 1664525u + 1013904223u;
+    for (int i = 0; i < 2; ++i) {
+        v.x += v.y * 1664525u;
+        v.y += v.x * 1664525u;
+        v ^= v >> 16u;
+    }
+    return cellIndex * CELL + ivec2(v % uint(CELL));
+}
+
 void main() {
     ivec2 id = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(id, pixels.zw))) return;
-    float texels = pixelDetail(pixels.xy + id);
+    if (any(greaterThanEqual(id, cells.zw))) return;
+    ivec2 pixel = pixelOf(cells.xy + id);
+    if (any(greaterThanEqual(pixel, ivec2(view.viewport.xy)))) return;
+    float texels = pixelDetail(pixel);
     if (texels > 0.0) atomicAdd(counters[stairwellDemandCounter(texels)], 1u);
 }
