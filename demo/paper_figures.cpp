@@ -237,10 +237,10 @@ std::vector<PaperFigure> gradient() {
                     "and our bias of 1/32 of a texel's slope. Lit surfaces: those that a map of "
                     "4096 x 4096 says are lit all around.",
          .finding =
-             "The paper shows a picture free of acne; so are ours on lit surfaces, with the "
-             "receiver's own gradient and with that of the map's neighbours, which the paper "
-             "proposes. Where light hardly touches the hills, near the edges of their own shadows, "
-             "a faint moire remains with either, within the margin that the numbers leave out."},
+             "The paper shows a picture free of acne; so are ours on lit surfaces but for a few "
+             "pixels in a thousand, with the receiver's own gradient and with that of the map's "
+             "neighbours, which the paper proposes. Where light hardly touches the hills, near the "
+             "edges of their own shadows, a faint moire remains with either."},
         {.paper = "gradient",
          .name = "gradient-3",
          .title = "Fig. 4.2.3: without the offset",
@@ -283,8 +283,9 @@ std::vector<PaperFigure> gradient() {
          .setting = "The knob's hollow neck, N = 256. Half a texel is the paper's kernel.",
          .finding = "Ours differs: the rings are there, but the average gradient of the kernel, "
                     "with which the paper finds them less severe, does not lighten them here. Next "
-                    "to a hollow it also averages the wall on the other side, and with four texels "
-                    "more of the knob is dark than with the gradient of the point."},
+                    "to a hollow it also averages the wall on the other side. With four texels a "
+                    "sixth of the lit knob is dark with either: hollow surfaces rise over the "
+                    "receiver's plane within the kernel."},
     };
 }
 
