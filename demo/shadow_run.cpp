@@ -28,7 +28,7 @@ rc::Settings sizingOf(const ShadowRun::Settings& settings, const renderer::GlInf
 constexpr int kMostSettlingFrames = 64;
 // Frames from one tile of the detail probe to the next, of one map: a tile costs about 4 % of a
 // frame that has one.
-constexpr std::size_t kFramesPerTile = 8;
+constexpr std::size_t kFramesPerTile = 10;
 // What one of several maps is kept at while no penumbra of it is in view, so that the texels are
 // there for the others. A shadow that comes into view must show on it to ask for more: what is too
 // wide for the detail probe covers half a texel or more.

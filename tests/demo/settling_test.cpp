@@ -174,7 +174,7 @@ TEST(Settling, StaysWhileTheDetailProbeGoesRound) {
     settings.radiusUv = 3 * demo::chooseSoftness(frame, {}, {}).radiusUv;
     ShadowRun run(frame, gl(), settings);
     run.settle();
-    constexpr int kRound = 128;  // 16 tiles, one in eight frames
+    constexpr int kRound = 160;  // 16 tiles, one in ten frames
     int size = 0, detail = 0;
     for (int i = 0; i < 3 * kRound; ++i) {
         run.step();

@@ -86,7 +86,7 @@ std::string sizesOf(const demo::ShadowRun& run) {
 void printCost(const renderer::GlInfo& info, const char* onlyScene) {
     constexpr int kFrames = 32;  // several turns of the detail probe
     std::printf(
-        "1280 x 720 px, %d frames, means: the detail probe works in every eighth frame. Passes by "
+        "1280 x 720 px, %d frames, means: the detail probe works in every tenth frame. Passes by "
         "%s.\n\n| scene | technique | N | demand pass and read-back, ms | frame, ms | share |\n"
         "|---|---|---|---|---|---|\n",
         kFrames, std::string(renderer::PassClock(info).method()).c_str());

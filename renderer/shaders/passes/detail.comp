@@ -30,39 +30,49 @@ bool blocked(ivec2 texel, PlaneCompare plane) {
     return texelFetch(tileDepths, texel - tile.xy, 0).x < planeDepth(plane, texel.x, texel.y);
 }
 
-// Texels from one that is blocked to the first that is not; kReach + 1 for none within reach.
-int runTo(ivec2 texel, ivec2 way, PlaneCompare plane) {
+// Texels from one that is blocked to the first that is not; most + 1 for none within as many.
+int runTo(ivec2 texel, ivec2 way, int most, PlaneCompare plane) {
     int run = 1;
-    while (run <= kReach && blocked(texel + run * way, plane)) ++run;
+    while (run <= most && blocked(texel + run * way, plane)) ++run;
     return run;
 }
 
-// Width in texels of the thin caster before the texel; 0 for none.
+ivec2 wayOf(int i) { return i == 0 ? ivec2(1, 0) : i == 1 ? ivec2(0, 1) : i == 2 ? ivec2(1, 1) : ivec2(1, -1); }
+
+// Width in texels of the thin caster before the texel; 0 for none. Most that is blocked lies in a wide shadow, where
+// no walk is longer than a thin caster is wide.
 float thinWidth(ivec2 texel, PlaneCompare plane) {
-    float narrowest = 1e9, longest = 0.0;
+    float narrowest = 1e9;
     for (int i = 0; i < 4; ++i) {
-        ivec2 way = i == 0 ? ivec2(1, 0) : i == 1 ? ivec2(0, 1) : i == 2 ? ivec2(1, 1) : ivec2(1, -1);
-        int ahead = runTo(texel, way, plane), behind = runTo(texel, -way, plane);
-        float width = float(ahead + behind - 1) * length(vec2(way));
-        longest = max(longest, width);
-        if (ahead <= kReach && behind <= kReach) narrowest = min(narrowest, width);
+        ivec2 way = wayOf(i);
+        int ahead = runTo(texel, way, WIDEST_TEXELS, plane);
+        if (ahead > WIDEST_TEXELS) continue;
+        int behind = runTo(texel, -way, WIDEST_TEXELS, plane);
+        if (behind <= WIDEST_TEXELS) narrowest = min(narrowest, float(ahead + behind - 1) * length(vec2(way)));
     }
-    bool thin = narrowest <= float(WIDEST_TEXELS) && longest >= float(kElongation) * narrowest;
-    return thin ? narrowest : 0.0;
+    if (narrowest > float(WIDEST_TEXELS)) return 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 way = wayOf(i);
+        int both = runTo(texel, way, kReach, plane) + runTo(texel, -way, kReach, plane) - 1;
+        if (float(both) * length(vec2(way)) >= float(kElongation) * narrowest) return narrowest;
+    }
+    return 0.0;
 }
 
 // In texels; 0 where there is nothing thin to be seen.
 float pixelDetail(ivec2 pixel) {
     vec4 position = texelFetch(positions, pixel, 0);
     if (position.w == 0.0) return 0.0;
-    ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
-    if (!receiver.facesLight) return 0.0;
-    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) return 0.0;
-    vec2 place = receiver.uv * shadow.map.x;
+    // Most pixels are under another tile: no more of them than their place.
+    vec4 h = shadow.shadowFromEyeRelative * vec4(position.xyz, 1.0);
+    vec2 place = h.xy / h.w * shadow.map.x;
     if (!(all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(shadow.map.x))))) return 0.0;
     ivec2 texel = ivec2(place);
     ivec2 inTile = texel - tile.xy;
     if (any(lessThan(inTile, ivec2(tile.z))) || any(greaterThanEqual(inTile, ivec2(tile.w - tile.z)))) return 0.0;
+    ShadowReceiver receiver = shadowReceiver(position.xyz, texelFetch(planes, pixel, 0).xyz, view, shadow);
+    if (!receiver.facesLight) return 0.0;
+    if (!serves(receiver, dot(position.xyz, view.forward.xyz), shadow)) return 0.0;
     PlaneCompare plane = planeCompare(receiver, shadow, kBiasTexels);
     if (!blocked(texel, plane)) return 0.0;
     float widthUv = thinWidth(texel, plane) * shadow.map.y;
