@@ -23,5 +23,12 @@ window viewer-lamps 1120 900 18 --scene lamps --budget-texels 1000000
 
 "$bin/shadow_demo" --headless --scene contact_posts --technique pcss --view demand --frames 1 --width 1120 --height 630 \
     --screenshot "$out/demand.png"
+view() { # NAME ARGUMENT...: of the same place as the viewer's picture
+    "$bin/shadow_demo" --headless --scene yard --view "$1" --frames 1 --width 560 --height 315 \
+        --state "$work/viewer.json" --screenshot "$out/view-$1.png" "${@:2}"
+}
+view difference --compare 256
+view penumbra
+view texels --resolution 128
 "$bin/shadow_demo" --headless --scene yard --resolution auto --width 640 --height 360 --screenshot "$out/yard-auto.png"
 "$bin/shadow_demo" --headless --scene yard --resolution 4096 --width 640 --height 360 --screenshot "$out/yard-4096.png"
