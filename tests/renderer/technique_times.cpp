@@ -43,6 +43,7 @@ struct Row {
     std::vector<double> wholeDepthMs;  // with every triangle in every map
     std::vector<double> wholeMs;       // prefilter of everything, seen or not
     double share = 1;                  // of the last map's tiles that are seen
+    std::size_t bytes = 0;             // of the maps and what they are filtered in
 
     double median(renderer::Pass pass) const {
         return quartilesOf(passesMs[static_cast<std::size_t>(pass)]).median;
@@ -88,6 +89,7 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
             frame.render(settings, &clock);
             const renderer::PassTimesMs times = clock.collectMs();
             row.share = frame.readFilteredShare();
+            row.bytes = frame.mapBytes();
             renderer::FrameSettings whole = settings;
             whole.filterUnseen = true;
             whole.drawOutside = true;
@@ -119,18 +121,18 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
         "| technique | depth ms | of all triangles ms | prefilter ms | of it all ms | tiles seen | "
         "lookup ms "
         "| sum ms | "
-        "of pcf_disc | of vsm |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n",
+        "of pcf_disc | of vsm | maps MB |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|\n",
         scene, kWidthPx, kHeightPx, kResolution, static_cast<double>(radius),
         static_cast<double>(radius) * kResolution, kRounds, frame.lightViews().size(), screens,
         drawn, frame.drawnTriangles());
     for (const Row& row : rows)
-        std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.0f %% | %.1f | %.1f | %s | %s |\n",
+        std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.0f %% | %.1f | %.1f | %s | %s | %.1f |\n",
                     std::string(row.technique->name).c_str(), row.median(Pass::depth),
                     quartilesOf(row.wholeDepthMs).median, row.median(Pass::prefilter),
                     quartilesOf(row.wholeMs).median, 100 * row.share, row.median(Pass::lookup),
                     quartilesOf(row.sumsMs).median, ratio(row, find("pcf_disc")).c_str(),
-                    ratio(row, find("vsm")).c_str());
+                    ratio(row, find("vsm")).c_str(), static_cast<double>(row.bytes) / 1e6);
 }
 
 int measure(int argc, char** argv) {
