@@ -7,6 +7,7 @@
 
 #include "quest/quest.h"
 #include "records/quoted_text.h"
+#include "records/whole_file.h"
 #include "study_app/design_file.h"
 
 namespace study_app {
@@ -115,6 +116,14 @@ void RecordedSession::replayRows() {
 void RecordedSession::answer(const Answer& answer) {
     lastRow_ = session_.answer(answer);
     journal_.append(*lastRow_);
+}
+
+bool hasBegun(const fs::path& table) {
+    if (!fs::exists(table)) return false;
+    if (fs::exists(records::sidecarPath(table))) return true;
+    const std::string text = records::readWholeFile(table);
+    const std::size_t rows = text.find('\n');
+    return rows != text.npos && rows + 1 < text.size();
 }
 
 ReplayedSession replayTable(const fs::path& file) {

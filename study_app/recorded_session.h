@@ -73,6 +73,12 @@ class RecordedSession {
     std::size_t resumedRows_ = 0;
 };
 
+/// Whether a session has begun in this table: false where there is none, and where a program that
+/// was killed as it began left the table's first line, or part of it, and no sidecar yet. Nothing
+/// was recorded then, and a RecordedSession begins there as in an empty folder. Throws
+/// std::runtime_error where the table cannot be read.
+bool hasBegun(const std::filesystem::path& table);
+
 struct ReplayedSession {
     records::SessionSidecar sidecar;
     records::TrialTable table;

@@ -48,7 +48,7 @@ bool isRerunOf(const Design& first, Design again) {
 std::vector<Run> runsOf(const SessionRequest& request) {
     const SessionRequest first = firstOf(request);
     std::vector<Run> runs{{{}, replayTable(tableOf(first)).session}};
-    for (int i = 1; std::filesystem::exists(tableOf(rerunOf(first, i))); ++i) {
+    for (int i = 1; hasBegun(tableOf(rerunOf(first, i))); ++i) {
         Session session = replayTable(tableOf(rerunOf(first, i))).session;
         if (!isRerunOf(runs[0].session.design(), session.design())) continue;
         runs.push_back({rerunName(i), std::move(session)});
@@ -87,7 +87,7 @@ SessionRequest rerunRequest(const SessionRequest& request, const std::string& co
         SessionRequest rerun = rerunOf(first, i);
         rerun.design.onlyConditions = {condition};
         rerun.seed = freshSeed;
-        if (!std::filesystem::exists(tableOf(rerun))) return rerun;
+        if (!hasBegun(tableOf(rerun))) return rerun;
         const Session there = replayTable(tableOf(rerun)).session;
         if (there.finished() || there.design().onlyConditions != rerun.design.onlyConditions ||
             !isRerunOf(first.design, there.design())) {

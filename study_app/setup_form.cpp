@@ -84,6 +84,7 @@ std::string describeEdges(const Design& d) {
 
 std::string describeTable(const fs::path& table) {
     try {
+        if (!hasBegun(table)) return "not begun";
         const Session session = replayTable(table).session;
         if (session.finished()) return "finished";
         return std::to_string(session.answered()) + " of " + std::to_string(session.total()) +
@@ -130,6 +131,7 @@ ExistingSession findExisting(const SetupForm& form) {
     if (!fs::exists(table)) return existing;
     try {
         requireFree(table);
+        if (!hasBegun(table)) return existing;
         const ReplayedSession replayed = replayTable(table);
         requireAsBegun(form, table, replayed.session);
         existing.answered = replayed.session.answered();

@@ -100,6 +100,18 @@ TEST(Reruns, GoOnWithOneThatWasLeftUnfinished) {
     EXPECT_EQ(rerunRequest(first, "stair-a4-lit1-noise0", 6).session, "rerun2");
 }
 
+TEST(Reruns, BeginOneAgainThatWasKilledAsItBegan) {
+    const tests::TemporaryFolder folder;
+    const SessionRequest first = requestIn(folder);
+    run(first, {"stair-a3-lit1-noise0"});
+    {
+        const records::TrialJournal begun(
+            records::trialTablePath(first.dataFolder, first.participant, "rerun1"));
+    }
+    EXPECT_EQ(runsOf(first).size(), 1u);
+    EXPECT_EQ(rerunRequest(first, "stair-a3-lit1-noise0", 5).session, "rerun1");
+}
+
 TEST(Reruns, AreNotTakenForThoseOfAnotherDesign) {
     const tests::TemporaryFolder folder;
     const SessionRequest first = requestIn(folder);

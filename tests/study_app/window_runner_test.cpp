@@ -442,6 +442,33 @@ TEST(SetupForm, FindsWhatIsThereAndKeepsToIt) {
     EXPECT_EQ(findExisting(form).state, ExistingSession::State::unusable);
 }
 
+// A program that was killed between the table's first line and the sidecar has recorded nothing.
+TEST(SetupForm, TakesASessionThatWasKilledAsItBeganForNone) {
+    const tests::TemporaryFolder folder;
+    SetupForm form;
+    form.dataFolder = (folder.path() / "data").string();
+    form.participant = "01";
+    const auto table = records::trialTablePath(form.dataFolder, "01", std::nullopt);
+    { const records::TrialJournal begun(table); }
+    const auto header = std::filesystem::file_size(table);
+    for (const std::uintmax_t written : {header, header / 2, std::uintmax_t{0}}) {
+        std::filesystem::resize_file(table, written);
+        const ExistingSession existing = findExisting(form);
+        EXPECT_EQ(existing.state, ExistingSession::State::none) << existing.problem;
+        EXPECT_THAT(describeParticipants(form.dataFolder), testing::ElementsAre("01: not begun"));
+    }
+    {
+        SessionRunner runner(requestIn(folder));
+        Sitting person{runner};
+        runner.begin(SessionRunner::Stage::session, person.now);
+        person.show();
+        person.answer(true);
+    }
+    EXPECT_EQ(findExisting(form).answered, 1u);
+    std::filesystem::remove(records::sidecarPath(table));  // now a row would be lost
+    EXPECT_EQ(findExisting(form).state, ExistingSession::State::unusable);
+}
+
 TEST(SetupForm, SaysWhatIsMissing) {
     SetupForm form;
     EXPECT_THAT(missing(form), testing::HasSubstr("participant"));
