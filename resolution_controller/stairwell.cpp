@@ -14,6 +14,7 @@
 
 #include "resolution_controller/audience.h"
 #include "resolution_controller/light_set.h"
+#include "resolution_controller/sentence.h"
 #include "resolution_controller/trace.h"
 
 namespace rc = resolution_controller;
@@ -125,6 +126,22 @@ bool hasItsSize(const stairwell_settings& s) noexcept {
     return s.struct_size == sizeof s && s.slope.struct_size == sizeof s.slope;
 }
 
+bool reservesNothing(const stairwell_settings& s) noexcept {
+    return s.reserved == 0 && s.slope.reserved == 0;
+}
+
+/// Of what only stairwell_settings_init may write; `whose` begins the message.
+stairwell_status check(const stairwell_settings& s, const std::string& whose, char* message,
+                       std::size_t size) {
+    if (!hasItsSize(s)) return refuse(STAIRWELL_BAD_STRUCT_SIZE, message, size);
+    if (reservesNothing(s)) return STAIRWELL_OK;
+    const bool own = s.reserved != 0;
+    tell(message, size,
+         whose + rc::sentence(own ? "reserved" : "slope.reserved",
+                              own ? s.reserved : s.slope.reserved, "must be 0"));
+    return STAIRWELL_BAD_VALUE;
+}
+
 rc::DemandHistogram fromC(const stairwell_histogram& histogram) noexcept {
     return std::bit_cast<rc::DemandHistogram>(histogram);
 }
@@ -134,7 +151,7 @@ rc::DemandHistogram fromC(const stairwell_histogram& histogram) noexcept {
 stairwell_status check(const stairwell_recent& recent) noexcept {
     if (recent.struct_size != sizeof recent) return STAIRWELL_BAD_STRUCT_SIZE;
     const bool inside = recent.frames >= 1 && recent.frames <= STAIRWELL_MOST_RECENT &&
-                        recent.next >= 0 && recent.next < recent.frames;
+                        recent.next >= 0 && recent.next < recent.frames && recent.reserved == 0;
     return inside ? STAIRWELL_OK : STAIRWELL_BAD_VALUE;
 }
 
@@ -244,6 +261,7 @@ stairwell_status stairwell_slope_for(const stairwell_slope* measured, double det
                                      stairwell_slope* asked, uint32_t* warnings) noexcept {
     if (!measured || !asked) return STAIRWELL_NULL_ARGUMENT;
     if (measured->struct_size != sizeof *measured) return STAIRWELL_BAD_STRUCT_SIZE;
+    if (measured->reserved != 0) return STAIRWELL_BAD_VALUE;
     if (encoding < 0 || encoding > STAIRWELL_ENCODING_UNKNOWN || kernel < 0 ||
         kernel > STAIRWELL_KERNEL_UNKNOWN) {
         return STAIRWELL_BAD_VALUE;
@@ -287,7 +305,7 @@ float stairwell_pixel_footprint(float dudx, float dvdx, float dudy, float dvdy) 
 
 float stairwell_demand(const stairwell_settings* settings, float radius_uv, float footprint,
                        float contrast, float caster_width_uv) noexcept {
-    if (!settings || !hasItsSize(*settings)) return 0;
+    if (!settings || !hasItsSize(*settings) || !reservesNothing(*settings)) return 0;
     return rc::demand(rc::demandRule(fromC(*settings)), {.radiusUv = radius_uv,
                                                          .footprint = footprint,
                                                          .contrast = contrast,
@@ -353,11 +371,12 @@ stairwell_status stairwell_create(const stairwell_settings* settings, size_t cou
     if (!lights || (!settings && count > 0))
         return refuse(STAIRWELL_NULL_ARGUMENT, message, message_size);
     if (count > rc::kMostLights) return refuse(STAIRWELL_BAD_COUNT, message, message_size);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!hasItsSize(settings[i]))
-            return refuse(STAIRWELL_BAD_STRUCT_SIZE, message, message_size);
-    }
     return guarded(message, message_size, [&] {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::string whose = "light " + std::to_string(i) + ": ";
+            const stairwell_status bad = check(settings[i], whose, message, message_size);
+            if (bad) return bad;
+        }
         std::vector<rc::Settings> each(count);
         for (std::size_t i = 0; i < count; ++i) each[i] = fromC(settings[i]);
         *lights = std::make_unique<stairwell_lights>(each).release();
@@ -401,8 +420,9 @@ stairwell_status stairwell_reconfigure(stairwell_lights* lights, size_t light,
                                        size_t message_size) noexcept {
     if (!lights || !settings) return refuse(STAIRWELL_NULL_ARGUMENT, message, message_size);
     if (light >= lights->lights.count()) return refuse(STAIRWELL_BAD_INDEX, message, message_size);
-    if (!hasItsSize(*settings)) return refuse(STAIRWELL_BAD_STRUCT_SIZE, message, message_size);
     return guarded(message, message_size, [&] {
+        const stairwell_status bad = check(*settings, "", message, message_size);
+        if (bad) return bad;
         const rc::Settings asked = fromC(*settings);
         const std::string problem = lights->lights.reconfigure(light, asked);
         if (lights->trace) lights->trace->reconfigured(light, asked);

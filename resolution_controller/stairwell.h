@@ -18,10 +18,12 @@
  *     stairwell_update(lights, &light, 1, NULL, &choice, sizeof choice, NULL);
  *
  * Every function checks its arguments and returns a status; after anything but STAIRWELL_OK its
- * outputs are untouched, messages aside, and so is what it was to change (stairwell_reconfigure
- * excepted, see there). No exception leaves. Structs that go in carry their size: fill them by
- * their init function with sizeof, so that a caller and a library of different age notice each
- * other. A pointer that is neither NULL nor what the function asks for cannot be noticed.
+ * outputs are untouched, messages and the frames of stairwell_trace_replay aside, and so is what it
+ * was to change (stairwell_reconfigure excepted, see there). No exception leaves. Structs that go
+ * in carry their size: fill them by their init function with sizeof, so that a caller and a library
+ * of different age notice each other; their `reserved` fields must be 0, else the answer is
+ * STAIRWELL_BAD_VALUE. A pointer that is neither NULL nor what the function asks for cannot be
+ * noticed.
  *
  * stairwell_update, and what else is called every frame (demand, histogram, recent, texts), neither
  * allocates nor waits nor looks at a clock. One set of lights is for one thread at a time;
@@ -149,7 +151,8 @@ typedef struct stairwell_histogram {
 /* sigma of the derivatives of the light-space uv by the pixel's place; 0 without a bound. */
 float stairwell_pixel_footprint(float dudx, float dvdx, float dudy, float dvdy) STAIRWELL_NOEXCEPT;
 /* N(p) under these settings; 0, which a histogram rejects, also for settings that are NULL or not
- * initialised. footprint 0: no bound; contrast 1: full; caster_width_uv 0: none is thin. */
+ * initialised (struct_size, reserved). footprint 0: no bound; contrast 1: full; caster_width_uv 0:
+ * none is thin. */
 float stairwell_demand(const stairwell_settings* settings, float radius_uv, float footprint,
                        float contrast, float caster_width_uv) STAIRWELL_NOEXCEPT;
 /* How much of a shadow's edge the point stands for, in 64ths of a pixel, 1 to 64; 1 where radius or
@@ -287,7 +290,8 @@ stairwell_status stairwell_update(stairwell_lights* lights, const stairwell_ligh
                                   stairwell_summary* summary) STAIRWELL_NOEXCEPT;
 
 /* New settings for a light. STAIRWELL_BAD_VALUE: they are unusable, the old ones stay, and the
- * light is held with that reason until usable ones come. */
+ * light is held with that reason until usable ones come; but for `reserved` fields that are not 0,
+ * which change nothing. */
 stairwell_status stairwell_reconfigure(stairwell_lights* lights, size_t light,
                                        const stairwell_settings* settings, char* message,
                                        size_t message_size) STAIRWELL_NOEXCEPT;
@@ -305,7 +309,10 @@ stairwell_status stairwell_trace_start(stairwell_lights* lights, void* buffer,
 stairwell_status stairwell_trace_stop(stairwell_lights* lights, size_t* bytes,
                                       uint64_t* lost) STAIRWELL_NOEXCEPT;
 /* Decides anew: STAIRWELL_OK where every decision is made again, STAIRWELL_TRACE_DIFFERS with the
- * first difference in the message, STAIRWELL_BAD_TRACE with what is wrong. `frames` may be NULL. */
+ * first difference in the message, STAIRWELL_BAD_TRACE with what is wrong and where. A trace that
+ * differs and then cannot be read any further is STAIRWELL_TRACE_DIFFERS, with both in the message.
+ * `frames` may be NULL; after these three *frames is the number of frames that were decided anew:
+ * all of the trace, or those before the place where it cannot be read. */
 stairwell_status stairwell_trace_replay(const void* trace, size_t trace_size, uint64_t* frames,
                                         char* message, size_t message_size) STAIRWELL_NOEXCEPT;
 

@@ -276,7 +276,8 @@ ReplayReport replay(std::span<const std::byte> bytes) {
         Replay(bytes).run(report);
         report.same = report.differences == 0;
     } catch (const std::runtime_error& problem) {
-        report.problem = problem.what();
+        if (!report.problem.empty()) report.problem += "; then ";
+        report.problem += problem.what();
     }
     return report;
 }

@@ -68,13 +68,13 @@ class TraceWriter {
 };
 
 struct ReplayReport {
-    bool same = false;  ///< readable to its end, and every decision was made again
-    std::uint64_t frames = 0;
+    bool same = false;              ///< readable to its end, and every decision was made again
+    std::uint64_t frames = 0;       ///< that were decided again
     std::uint64_t differences = 0;  ///< decisions (of one light in one frame) that differ
     std::uint64_t firstFrame = 0;   ///< of them, counted from 0
     std::size_t firstLight = 0;
-    /// Empty, or one sentence: why the trace cannot be read (and at which byte), or the first
-    /// difference.
+    /// Empty, or one sentence: the first difference, or why the trace cannot be read any further
+    /// (and at which byte); where it both differs and ends badly, both.
     std::string problem;
 };
 

@@ -51,7 +51,7 @@ stairwell_settings settingsFrom(Bytes& in) {
     stairwell_settings_init(&s, sizeof s);
     const int changes = in.below(6);
     for (int i = 0; i < changes; ++i) {
-        switch (in.below(14)) {
+        switch (in.below(15)) {
             case 0:
                 s.min_size = in.whole(1 << in.below(14));
                 break;
@@ -90,6 +90,9 @@ stairwell_settings settingsFrom(Bytes& in) {
                 break;
             case 12:
                 s.slope.contrast_exponent = in.real(0.1);
+                break;
+            case 13:
+                (in.below(2) ? s.reserved : s.slope.reserved) = in.whole(0);
                 break;
             default:
                 s.slope.c90 = in.real(1);

@@ -341,6 +341,40 @@ TEST(CInterface, SaysWhatIsWrongWithSettingsAndCutsTheMessageToFit) {
     EXPECT_EQ(stairwell_create(&settings, 1, &none, nullptr, 0), STAIRWELL_BAD_VALUE);
 }
 
+TEST(CInterface, RefusesReservedFieldsThatAreNot0) {
+    stairwell_settings settings = defaults(), slopes = defaults();
+    settings.reserved = 77;
+    slopes.slope.reserved = -9;
+    std::vector<stairwell_settings> second{defaults(), settings};
+    char message[200] = "";
+    stairwell_lights* none = nullptr;
+    EXPECT_EQ(stairwell_create(second.data(), 2, &none, message, sizeof message),
+              STAIRWELL_BAD_VALUE);
+    EXPECT_STREQ(message, "light 1: reserved is 77: must be 0");
+    EXPECT_EQ(stairwell_create(&slopes, 1, &none, message, sizeof message), STAIRWELL_BAD_VALUE);
+    EXPECT_STREQ(message, "light 0: slope.reserved is -9: must be 0");
+    EXPECT_EQ(none, nullptr);
+    Lights lights(1);
+    EXPECT_EQ(stairwell_reconfigure(lights.handle, 0, &settings, message, sizeof message),
+              STAIRWELL_BAD_VALUE);
+    EXPECT_STREQ(message, "reserved is 77: must be 0");
+    const stairwell_light light = withRadius(0.01);
+    stairwell_decision d;
+    stairwell_update(lights.handle, &light, 1, nullptr, &d, sizeof d, nullptr);
+    EXPECT_EQ(d.reason, STAIRWELL_DEMAND_MET) << "nothing was changed";
+    EXPECT_EQ(stairwell_demand(&settings, 0.01f, 0, 1, 0), 0);
+    EXPECT_EQ(stairwell_demand(&slopes, 0.01f, 0, 1, 0), 0);
+    stairwell_slope asked;
+    EXPECT_EQ(stairwell_slope_for(&slopes.slope, 0, 0.5, 0, 0, &asked, nullptr),
+              STAIRWELL_BAD_VALUE);
+    stairwell_recent recent;
+    stairwell_recent_init(&recent, sizeof recent, 16);
+    recent.reserved = 1;
+    const stairwell_histogram histogram{};
+    EXPECT_EQ(stairwell_recent_add(&recent, &histogram), STAIRWELL_BAD_VALUE);
+    EXPECT_EQ(stairwell_recent_clear(&recent), STAIRWELL_BAD_VALUE);
+}
+
 TEST(CInterface, TurnsAUsersWordsIntoASlope) {
     stairwell_slope slope;
     ASSERT_EQ(stairwell_slope_init(&slope, sizeof slope), STAIRWELL_OK);
@@ -391,10 +425,22 @@ TEST(CInterface, RecordsAndReplays) {
     EXPECT_EQ(stairwell_trace_replay(buffer.data(), bytes - 1, &frames, message, sizeof message),
               STAIRWELL_BAD_TRACE);
     EXPECT_THAT(message, HasSubstr("ends within a record"));
+    EXPECT_EQ(frames, 99u) << "that could be read";
     buffer[bytes - 20] ^= std::byte{1};
     EXPECT_EQ(stairwell_trace_replay(buffer.data(), bytes, &frames, message, sizeof message),
               STAIRWELL_TRACE_DIFFERS);
     EXPECT_THAT(message, HasSubstr("frame 99, light 1"));
+    EXPECT_EQ(frames, 100u);
+    char both[600];
+    buffer[bytes] = std::byte{9};
+    EXPECT_EQ(stairwell_trace_replay(buffer.data(), bytes + 1, &frames, both, sizeof both),
+              STAIRWELL_TRACE_DIFFERS);
+    EXPECT_THAT(both, HasSubstr("frame 99, light 1"));
+    EXPECT_THAT(both, HasSubstr("; then trace, byte "));
+    EXPECT_THAT(both, HasSubstr("unknown kind of record, 9"));
+    EXPECT_EQ(stairwell_trace_replay(nullptr, 0, &frames, both, sizeof both),
+              STAIRWELL_NULL_ARGUMENT);
+    EXPECT_EQ(frames, 100u) << "untouched";
     EXPECT_EQ(stairwell_trace_stop(lights.handle, &bytes, &lost), STAIRWELL_OK);
     EXPECT_EQ(bytes, 0u);
 }

@@ -117,6 +117,15 @@ TEST(Trace, NamesTheFirstDifference) {
     EXPECT_EQ(report.firstFrame, 1u);
     EXPECT_EQ(report.firstLight, 1u);
     EXPECT_THAT(report.problem, HasSubstr("frame 1, light 1: recorded 512 (meets the demand"));
+
+    // Also where it is cut short after it.
+    r.writer.frame(data, {}, decisions);
+    const rc::ReplayReport cut = rc::replay(r.writer.bytes().first(r.writer.bytes().size() - 1));
+    EXPECT_FALSE(cut.same);
+    EXPECT_EQ(cut.differences, 2u);
+    EXPECT_EQ(cut.frames, 2u);
+    EXPECT_THAT(cut.problem, HasSubstr(report.problem + "; then trace, byte "));
+    EXPECT_THAT(cut.problem, HasSubstr("the trace ends within a record"));
 }
 
 TEST(Trace, WritingAllocatesNothing) {
