@@ -24,40 +24,74 @@ Decision decide(ResolutionController& controller, const LightData& data,
     return controller.hold(frame);
 }
 
-/// As ResolutionController::choose lowers a size. True: the need fell.
-bool fallsLate(HeldNeed& held, std::int32_t need, const Settings& settings,
-               bool remembersFalls) noexcept {
-    // So much less that a level could be saved.
-    const auto isBelow = [&settings](std::int64_t texels, std::int64_t others) {
-        return texels * 100 < others * settings.lowerBelowPercent;
-    };
-    if (held.trialFrames > 0) {
-        --held.trialFrames;
-        if (isBelow(held.fellTo, need)) {
-            held.regretted = held.fellTo;
-            held.trialFrames = 0;
-        }
-    }
-    if (!isBelow(need, held.texels)) {
+/// So much less that a level could be saved.
+bool isBelow(std::int64_t texels, std::int64_t others, const Settings& settings) noexcept {
+    return texels * 100 < others * settings.lowerBelowPercent;
+}
+
+/// As ResolutionController::choose lowers a size: what the need falls to in this frame; absent:
+/// nothing.
+std::optional<std::int32_t> fallsLate(HeldNeed& held, std::int32_t need,
+                                      const Settings& settings) noexcept {
+    if (!isBelow(need, held.texels, settings)) {
         held.texels = std::max(held.texels, need);
         held.framesBelow = held.largestBelow = 0;
-        return false;
+        return {};
     }
     held.largestBelow = std::max(held.largestBelow, need);
     if (held.framesBelow < settings.lowerAfterFrames - 1) {
         ++held.framesBelow;
-        return false;
+        return {};
     }
     const std::int32_t lower = held.largestBelow;
     held.framesBelow = held.largestBelow = 0;
-    const bool again =
-        held.regretted > 0 && !isBelow(lower, held.regretted) && !isBelow(held.regretted, lower);
-    if (again && remembersFalls) return false;
+    return lower;
+}
+
+constexpr std::int32_t kTrialTimes = 2;  // the others take the texels first
+
+/// `mapSize` is that of the map which the need was measured on.
+void follow(HeldNeed& held, const LightData& data, std::int32_t need, std::int32_t mapSize,
+            const Settings& settings) noexcept {
+    if (data.kind != held.fellBy) held.falls.trialFrames = 0;
+    held.falls.pass(need, mapSize, settings.lowerAfterFrames);
+    if (isBelow(held.fellTo, need, settings)) held.falls.rose(settings.lowerAfterFrames);
+    const auto lower = fallsLate(held, need, settings);
+    if (!lower || held.falls.pauses()) return;
+    held.texels = held.fellTo = *lower;
+    held.fellBy = data.kind;
+    held.falls.fell(settings.lowerAfterFrames, kTrialTimes);
+}
+
+/// The same by Rules::needsRemembered and older ones.
+void followBefore13(HeldNeed& held, const LightData& data, std::int32_t need,
+                    const Settings& settings, Rules rules) noexcept {
+    std::int32_t& trialFrames = held.falls.trialFrames;
+    if (data.kind != held.fellBy) trialFrames = 0;
+    if (trialFrames > 0) {
+        --trialFrames;
+        if (isBelow(held.fellTo, need, settings)) {
+            held.regretted = held.fellTo;
+            trialFrames = 0;
+        }
+    }
+    const auto lower = fallsLate(held, need, settings);
+    if (!lower) return;
+    const bool again = held.regretted > 0 && !isBelow(*lower, held.regretted, settings) &&
+                       !isBelow(held.regretted, *lower, settings);
+    if (again && rules == Rules::needsRemembered) return;
     constexpr std::int32_t kLongest = std::numeric_limits<std::int32_t>::max() / 2;
-    held.texels = held.fellTo = lower;
-    held.trialFrames = 2 * std::min(settings.lowerAfterFrames, kLongest);
+    held.texels = held.fellTo = *lower;
+    held.fellBy = data.kind;
+    trialFrames = 2 * std::min(settings.lowerAfterFrames, kLongest);
     held.regretted = 0;
-    return true;
+}
+
+/// Whether only a pause keeps the need from falling: the data of the map that the light has ask for
+/// less.
+bool isKeptByAPause(const HeldNeed& held, const Settings& settings) noexcept {
+    return held.falls.pauses() && held.falls.needOnSize > 0 &&
+           isBelow(held.falls.needOnSize, held.texels, settings);
 }
 
 }  // namespace
@@ -68,18 +102,15 @@ std::string validate(const HeldNeed& need) {
         return sentence("heldNeed.texels", need.texels,
                         "it and largestBelow must be in 0 to 65536");
     }
-    for (const std::int32_t frames : {need.framesBelow, need.trialFrames}) {
-        if (frames < 0) {
-            return sentence("heldNeed.framesBelow", frames,
-                            "it and trialFrames must be at least 0");
-        }
+    if (need.framesBelow < 0) {
+        return sentence("heldNeed.framesBelow", need.framesBelow, "must be at least 0");
     }
     for (const std::int32_t texels : {need.fellTo, need.regretted}) {
         if (texels < 0 || texels > 65536) {
             return sentence("heldNeed.fellTo", texels, "it and regretted must be in 0 to 65536");
         }
     }
-    return {};
+    return validate(need.falls);
 }
 
 LightSet::LightSet(std::span<const Settings> settings) {
@@ -107,7 +138,20 @@ std::string LightSet::reconfigure(std::size_t light, const Settings& settings) {
         return sentence("light", static_cast<double>(light),
                         "must be below their number, " + std::to_string(lights_.size()));
     }
-    return lights_[light].controller.reconfigure(settings);
+    Light& l = lights_[light];
+    const Settings before = l.controller.settings();
+    std::string problem = l.controller.reconfigure(settings);
+    if (rules_ >= Rules::fallsRemembered && l.controller.settings() != before) l.need.falls = {};
+    return problem;
+}
+
+void LightSet::decideBy(Rules rules) noexcept {
+    rules_ = rules;
+    for (Light& light : lights_) {
+        light.controller.decideBy(rules);
+        light.need.falls = {};
+        light.need.regretted = 0;
+    }
 }
 
 void LightSet::restore(std::size_t light, const ControllerState& state, const HeldNeed& need) {
@@ -117,6 +161,9 @@ void LightSet::restore(std::size_t light, const ControllerState& state, const He
     }
     l.controller = ResolutionController(l.controller.settings(), state);
     l.need = need;
+    if (rules_ >= Rules::fallsRemembered) return;
+    l.controller.decideBy(rules_);
+    l.need.falls = {.trialFrames = need.falls.trialFrames};
 }
 
 /// What the light would do without the others.
@@ -134,9 +181,12 @@ void LightSet::decideAlone(Light& light, const LightData& data, Decision& decisi
             held = {.texels = decision.need};
             return;
         }
-        if (data.kind != held.fellBy) held.trialFrames = 0;
-        if (fallsLate(held, decision.need, light.controller.settings(), remembersFalls_))
-            held.fellBy = data.kind;
+        const Settings& settings = light.controller.settings();
+        if (rules_ >= Rules::fallsRemembered) {
+            follow(held, data, decision.need, light.before.last.size, settings);
+        } else {
+            followBefore13(held, data, decision.need, settings, rules_);
+        }
     }
 }
 
@@ -152,7 +202,8 @@ BudgetUse LightSet::share(std::span<const LightData> data, std::span<Decision> d
         const Settings& settings = light.controller.settings();
         const auto limits = light.controller.limits(frameOf(i));
         const std::int32_t need = light.need.texels > 0 ? light.need.texels : decisions[i].size;
-        const std::int32_t level = levelAtLeast(need, settings.levelRatio).value_or(limits.high);
+        std::int32_t level = levelAtLeast(need, settings.levelRatio).value_or(limits.high);
+        if (isKeptByAPause(light.need, settings)) level = std::min(level, decisions[i].size);
         shares_[on++] = {.need = need,
                          .lowest = limits.low,
                          .wanted = std::clamp(level, limits.low, limits.high),

@@ -12,6 +12,9 @@
 // trade texels back and forth on a still scene. A light that gets less than it asked for says
 // limitedByBudget and how far to enlarge its filter.
 //
+// Nothing is reserved for a light above the level that meets its held need, nor, while that need is
+// kept from falling by a pause, above the size that the light would choose alone.
+//
 // The constructor allocates and throws; update() does neither.
 #pragma once
 
@@ -56,18 +59,18 @@ struct LightSummary {
     bool operator==(const LightSummary&) const = default;
 };
 
-/// A need that rises at once and falls late. What is measured depends a little on the map that is
-/// measured on: a light that falls, gets a smaller map and asks for more again would trade its
-/// texels for ever. So a fall that had to be taken back is remembered, and one to about the same
-/// need does not happen again before a camera cut or a fall to another need.
+/// A need that rises at once and falls late. A light that falls, gets a smaller map and asks for
+/// more again would trade its texels for ever: so it pauses as a size does (fall_memory.h).
 struct HeldNeed {
     std::int32_t texels = 0;
     std::int32_t framesBelow = 0;
     std::int32_t largestBelow = 0;
-    std::int32_t fellTo = 0;       ///< at the last fall
-    std::int32_t trialFrames = 0;  ///< left in which a rise takes that fall back
-    std::int32_t regretted = 0;    ///< the need that a fall to was taken back; 0 none
+    std::int32_t fellTo = 0;  ///< at the last fall
+    FallMemory falls = {};
     LightData::Kind fellBy = LightData::Kind::none;  ///< data of another kind take nothing back
+    /// Rules::needsRemembered alone: a need to which nothing falls, since a fall to it was taken
+    /// back; 0 none.
+    std::int32_t regretted = 0;
     bool operator==(const HeldNeed&) const = default;
 };
 
@@ -92,8 +95,9 @@ class LightSet {
     /// Goes on from a state that was taken of another set. Throws std::invalid_argument as the
     /// constructor; light < count().
     void restore(std::size_t light, const ControllerState& state, const HeldNeed& need);
-    /// From here on no fall of a need is remembered: the rules of traces before 1.2.
-    void forgetFalls() noexcept { remembersFalls_ = false; }
+    /// From here on, with no fall in mind: older ones are for traces of their time.
+    void decideBy(Rules rules) noexcept;
+    Rules rules() const noexcept { return rules_; }
 
   private:
     struct Light {
@@ -107,7 +111,7 @@ class LightSet {
     BudgetUse share(std::span<const LightData> data, std::span<Decision> decisions,
                     std::int64_t budget) noexcept;
 
-    bool remembersFalls_ = true;
+    Rules rules_ = kPresentRules;
     std::vector<Light> lights_;
     std::vector<BudgetLight> shares_;
     std::vector<std::uint32_t> scratch_;

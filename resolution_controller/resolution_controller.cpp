@@ -152,7 +152,7 @@ std::string validate(const ControllerState& s) {
          {s.framesBelow, s.largestNeedBelow, s.framesSinceCut, s.fadeFrame}) {
         if (count < 0) return sentence("state", count, "counts of frames must be at least 0");
     }
-    return {};
+    return validate(s.falls);
 }
 
 DemandRule demandRule(const Settings& settings) noexcept {
@@ -244,8 +244,16 @@ std::string ResolutionController::reconfigure(const Settings& settings) {
     std::string problem = validate(settings);
     state_.settingsRefused = !problem.empty();
     state_.slopeRefused = !problem.empty() && !validate(settings.slope).empty();
-    if (problem.empty()) settings_ = settings;
+    if (problem.empty() && settings != settings_) {
+        settings_ = settings;
+        state_.falls = {};  // what was measured then was measured otherwise
+    }
     return problem;
+}
+
+void ResolutionController::decideBy(Rules rules) noexcept {
+    rules_ = rules;
+    state_.falls = {};
 }
 
 ResolutionController::Limits ResolutionController::limits(const Frame& frame) const noexcept {
@@ -301,7 +309,16 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
         s.framesBelow = s.largestNeedBelow = 0;
         return size;
     };
-    if (!s.hadData || s.cutPending || target >= current) return startOver(target);
+    const bool remembers = rules_ >= Rules::fallsRemembered;
+    if (!s.hadData || s.cutPending) {
+        s.falls = {};
+        return startOver(target);
+    }
+    if (remembers) s.falls.pass(need, s.last.size, settings_.lowerAfterFrames);
+    if (target >= current) {
+        if (target > current) s.falls.rose(settings_.lowerAfterFrames);
+        return startOver(target);
+    }
 
     std::int32_t lower = *levelAtMost(current - 1, settings_.levelRatio);
     if (!hasRoomFor(lower, need)) return startOver(current);
@@ -311,6 +328,7 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
         ++s.framesBelow;
         return current;
     }
+    if (s.falls.pauses()) return startOver(current);
 
     // As far down at once as the whole wait allows: a size for each level would pop at each.
     while (lower > limits.low) {
@@ -318,6 +336,7 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
         if (!hasRoomFor(next, s.largestNeedBelow)) break;
         lower = next;
     }
+    if (remembers) s.falls.fell(settings_.lowerAfterFrames, 1);
     return startOver(lower);
 }
 
@@ -364,6 +383,7 @@ Decision ResolutionController::update(double radiusUv, const Frame& frame) noexc
     if (frame.footprintUv > 0 && std::isfinite(frame.footprintUv)) {
         texels = std::min(texels, settings_.pixelBound / frame.footprintUv);
     }
+    if (!(state_.radiusUv > 0)) state_.falls = {};  // data of another kind take nothing back
     state_.radiusUv = radiusUv;
     return decide(std::min<double>(texels, kLargestNeed), nullptr, 0, frame);
 }
@@ -378,6 +398,7 @@ Decision ResolutionController::update(const DemandHistogram& histogram,
             histogram.rejected > 0 ? Reason::heldRejectedDemand : Reason::heldEmptyHistogram,
             frame);
     }
+    if (state_.radiusUv > 0) state_.falls = {};
     state_.radiusUv = 0;
     return decide(needOf(histogram, total, settings_.percentile), &histogram, total, frame);
 }

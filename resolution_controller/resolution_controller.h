@@ -31,6 +31,7 @@
 #include <string>
 
 #include "resolution_controller/demand.h"
+#include "resolution_controller/fall_memory.h"
 #include "resolution_controller/levels.h"
 #include "resolution_controller/map_constants.h"
 #include "resolution_controller/slope.h"
@@ -55,7 +56,8 @@ struct Settings {
 
     /// A map is lowered when for so many frames with data (>= 0) ...
     std::int32_t lowerAfterFrames = 45;
-    /// ... the demand was below this share, in percent (1 to 100), of a lower level.
+    /// ... the demand was below this share, in percent (1 to 100), of a lower level. It waits
+    /// longer after a lowering that had to be taken back (fall_memory.h).
     std::int32_t lowerBelowPercent = 80;
 
     /// Size until the first data come; taken to the next level within the limits. > 0.
@@ -118,7 +120,8 @@ struct Frame {
 enum class Reason : std::uint8_t {
     // The size follows the demand:
     demandMet = 0,       ///< the smallest level that meets it
-    waitingToLower = 1,  ///< a lower level would do, but with little room or not yet for long
+    waitingToLower = 1,  ///< a lower level would do, but with little room, not yet for long, or
+                         ///< not when it was tried
     atMinimum = 2,       ///< the demand is below the smallest level
     // The size is smaller than the demand; minRadiusUv says how far to enlarge the filter:
     limitedByPercentile = 3,  ///< it meets the percentile; some samples ask for more
@@ -173,6 +176,15 @@ struct Decision {
     bool operator==(const Decision&) const = default;
 };
 
+/// The rules by which the same data come to the same decisions, by the minor version of traces
+/// (trace.h) that they came with: older traces are replayed by the rules of their time.
+enum class Rules : std::uint16_t {
+    nothingRemembered = 1,  ///< what falls, falls again as often as it is taken back
+    needsRemembered = 2,    ///< a need in a budget does not, for ever
+    fallsRemembered = 3     ///< nor does a size, for a while (fall_memory.h)
+};
+inline constexpr Rules kPresentRules = Rules::fallsRemembered;
+
 /// Everything that a decision depends on beside settings, data and frame. For traces: to start one
 /// at any frame.
 struct ControllerState {
@@ -185,6 +197,7 @@ struct ControllerState {
     std::int32_t largestNeedBelow = 0;  // of those frames
     std::int32_t framesSinceCut = kNever;
     std::int32_t fadeFrame = kNever;  // 1 in the frame of the change that is being faded
+    FallMemory falls = {};            // of the size
     bool hadData = false;
     bool cutPending = false;  // no data of the new view yet
     bool settingsRefused = false;
@@ -224,6 +237,8 @@ class ResolutionController {
     const ControllerState& state() const noexcept { return state_; }
     /// Back to a state of this controller's own; takes back whatever came after it.
     void restore(const ControllerState& state) noexcept { state_ = state; }
+    /// From here on, with no fall in mind.
+    void decideBy(Rules rules) noexcept;
 
     struct Limits {
         std::int32_t low, high;  ///< levels
@@ -254,6 +269,7 @@ class ResolutionController {
     Decision held(Reason reason, const Frame& frame) noexcept;
     Decision finish(Decision decision, bool mayFade) noexcept;
 
+    Rules rules_ = kPresentRules;
     Settings settings_;
     ControllerState state_;
 };

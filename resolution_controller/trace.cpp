@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "resolution_controller/trace.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
@@ -128,13 +129,13 @@ class Replay {
         std::vector<HeldNeed> needs(count);
         for (std::size_t i = 0; i < count; ++i) {
             fields(in_, settings[i]);
-            fields(in_, states[i]);
-            fields(in_, needs[i], minor_ >= 2);
+            fields(in_, states[i], rules());
+            fields(in_, needs[i], rules());
         }
         requireGood();
         try {
             lights_.emplace(settings);
-            if (minor_ < 2) lights_->forgetFalls();
+            lights_->decideBy(rules());
             for (std::size_t i = 0; i < count; ++i) {
                 lights_->restore(i, states[i], needs[i]);
                 last_.emplace_back(states[i].last);
@@ -146,6 +147,9 @@ class Replay {
         data_.resize(count);
         decisions_.resize(count);
     }
+
+    /// Those of 1.0 are 1.1's and what decidedAgain() makes of them.
+    Rules rules() const { return static_cast<Rules>(std::max<std::uint16_t>(minor_, 1)); }
 
     void frame(ReplayReport& report) {
         Budget budget;
@@ -224,12 +228,14 @@ class Replay {
 bool TraceWriter::begin(const LightSet& lights) noexcept {
     ByteWriter out(buffer_);
     for (const std::uint8_t letter : kMagic) out.number(letter);
-    numbers(out, kTraceMajor, kTraceMinor);
+    const Rules rules = lights.rules();
+    const auto minor = static_cast<std::uint16_t>(rules);
+    numbers(out, kTraceMajor, minor);
     out.number(static_cast<std::uint32_t>(lights.count()));
     for (std::size_t i = 0; i < lights.count(); ++i) {
         fields(out, lights.light(i).settings());
-        fields(out, lights.light(i).state());
-        fields(out, lights.heldNeed(i), true);
+        fields(out, lights.light(i).state(), rules);
+        fields(out, lights.heldNeed(i), rules);
     }
     frames_ = lost_ = 0;
     lights_ = lights.count();

@@ -15,7 +15,7 @@
 // another buffer: a trace starts with the state that the lights are in.
 //
 // Format: little-endian whatever the machine, 64-bit IEEE numbers by their bits.
-//     header    "STWTRACE", u16 major 1, u16 minor 2, u32 number of lights
+//     header    "STWTRACE", u16 major 1, u16 minor 3, u32 number of lights
 //     lights    settings, state and held need of each
 //     records   u8 kind, then for a frame: budget, for each light data, and for each light the
 //               decision (size, reason, need, fade weight, min radius); for a change of settings:
@@ -24,7 +24,9 @@
 // record cannot be trusted. The minor version rises where the same data come to other decisions,
 // and older ones are replayed by the rules of their time: in 1.0 a size that was held without data
 // kept its least radius when the slope became another, and no least radius was faded; before 1.2 no
-// fall of a light's need under a budget was remembered.
+// fall of a light's need under a budget was remembered, and in 1.2 it was for ever; before 1.3 no
+// fall of a size was. A set that decides by older rules (LightSet::decideBy) writes traces of their
+// version.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +39,7 @@
 namespace resolution_controller {
 
 inline constexpr std::uint16_t kTraceMajor = 1;
-inline constexpr std::uint16_t kTraceMinor = 2;
+inline constexpr auto kTraceMinor = static_cast<std::uint16_t>(kPresentRules);
 
 class TraceWriter {
   public:

@@ -118,21 +118,33 @@ void fields(Stream& stream, S& s) noexcept {
             s.texelsPerCaster, s.budgetPerTexel);
 }
 
-template <typename Stream, Is<ControllerState> S>
+/// Since 1.3; of 1.2 only how long a need's fall is on trial.
+template <typename Stream, Is<FallMemory> S>
 void fields(Stream& stream, S& s) noexcept {
+    numbers(stream, s.trialFrames, s.takenBack, s.pauseFrames, s.size, s.framesOnSize,
+            s.needOnSize);
+}
+
+template <typename Stream, Is<ControllerState> S>
+void fields(Stream& stream, S& s, Rules rules) noexcept {
     auto& d = s.last;
     numbers(stream, d.size, d.previousSize, d.changed, d.fadeFromSize, d.fadeWeight, d.reason,
             d.need, d.artifactRatio, d.shareAbove, d.minRadiusUv);
     numbers(stream, s.radiusUv, s.largestRadiusUv, s.framesBelow, s.largestNeedBelow,
             s.framesSinceCut, s.fadeFrame, s.hadData, s.cutPending, s.settingsRefused,
             s.slopeRefused);
+    if (rules >= Rules::fallsRemembered) fields(stream, s.falls);
 }
 
-/// Before 1.2 no fall was remembered.
 template <typename Stream, Is<HeldNeed> S>
-void fields(Stream& stream, S& s, bool withFalls) noexcept {
+void fields(Stream& stream, S& s, Rules rules) noexcept {
     numbers(stream, s.texels, s.framesBelow, s.largestBelow);
-    if (withFalls) numbers(stream, s.fellTo, s.trialFrames, s.regretted, s.fellBy);
+    if (rules == Rules::needsRemembered) {
+        numbers(stream, s.fellTo, s.falls.trialFrames, s.regretted, s.fellBy);
+    } else if (rules >= Rules::fallsRemembered) {
+        numbers(stream, s.fellTo, s.fellBy);
+        fields(stream, s.falls);
+    }
 }
 
 /// What a trace keeps of a decision; the rest follows from it.

@@ -10,9 +10,11 @@ namespace rc = resolution_controller;
 
 namespace {
 
-std::string traceOf(const std::vector<rc::Settings>& settings, std::mt19937_64& random) {
+std::string traceOf(const std::vector<rc::Settings>& settings, rc::Rules rules,
+                    std::mt19937_64& random) {
     const std::size_t lights = settings.size();
     rc::LightSet set(settings);
+    set.decideBy(rules);
     std::vector<std::byte> buffer(1 << 16);
     rc::TraceWriter writer(buffer);
     writer.begin(set);
@@ -49,10 +51,12 @@ std::vector<std::string> fuzz::seeds() {
     std::vector<std::string> result;
     for (std::vector<rc::Settings> settings; settings.size() < 4;
          settings.push_back({.crossFadeFrames = 3})) {
-        result.push_back(traceOf(settings, random));
+        using enum rc::Rules;
+        for (const rc::Rules rules : {fallsRemembered, needsRemembered, nothingRemembered})
+            result.push_back(traceOf(settings, rules, random));
         result.push_back(result.back());
         constexpr std::size_t kMinorAt = 10;
-        result.back()[kMinorAt] = 0;  // by an older version's rules
+        result.back()[kMinorAt] = 0;  // as 1.1 in form
     }
     return result;
 }

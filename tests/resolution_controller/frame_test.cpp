@@ -263,6 +263,13 @@ TEST(ControllerState, RefusesWhatNoControllerWasEverIn) {
     refused([](auto& s) { s.last.fadeWeight = 1.5; });
     refused([](auto& s) { s.radiusUv = kInf; });
     refused([](auto& s) { s.framesBelow = -1; });
+    refused([](auto& s) { s.falls.trialFrames = -1; });
+    refused([](auto& s) { s.falls.takenBack = 21; });
+    refused([](auto& s) { s.falls.takenBack = -1; });
+    refused([](auto& s) { s.falls.pauseFrames = -1; });
+    refused([](auto& s) { s.falls.size = 65537; });
+    refused([](auto& s) { s.falls.framesOnSize = -1; });
+    refused([](auto& s) { s.falls.needOnSize = -1; });
 }
 
 }  // namespace

@@ -141,13 +141,13 @@ TEST(LightSet, DoesNotTradeTexelsBackAndForthOnAStillScene) {
 }
 
 /// Lights whose measured need is larger on a map that is too small, as that of percentiles is,
-/// heard three frames late. Counts the changes in the second half.
-int lateChanges(std::uint64_t seed, bool forgetting) {
+/// heard three frames late. Counts the changes in frames `from` to `to`.
+int changesIn(std::uint64_t seed, rc::Rules rules, int from, int to) {
     std::mt19937_64 rng(seed);
     std::uniform_real_distribution<double> logNeed(6, 11), share(0.3, 1), growth(1.3, 2.2);
     constexpr std::size_t kLights = 6;
     Fixture f(kLights);
-    if (forgetting) f.lights.forgetFalls();
+    f.lights.decideBy(rules);
     struct Light {
         double need, enough, growth;
         std::vector<int> sizes;
@@ -160,15 +160,14 @@ int lateChanges(std::uint64_t seed, bool forgetting) {
     }
     const auto budget = std::int64_t(std::exp2(17 + 6 * double(rng() % 1000) / 1000));
     int changes = 0;
-    constexpr int kFrames = 4000;
-    for (int frame = 0; frame < kFrames; ++frame) {
+    for (int frame = 0; frame < to; ++frame) {
         std::vector<LightData> data;
         for (const Light& light : lights) {
             const int size = frame < 3 ? 512 : light.sizes[std::size_t(frame) - 3];
             data.push_back(needing(light.need * (size < light.enough ? light.growth : 1)));
         }
         const auto summary = f.update(data, budget);
-        if (frame > kFrames / 2) changes += summary.changes;
+        if (frame >= from) changes += summary.changes;
         for (std::size_t i = 0; i < kLights; ++i) lights[i].sizes.push_back(f.decisions[i].size);
     }
     return changes;
@@ -177,29 +176,100 @@ int lateChanges(std::uint64_t seed, bool forgetting) {
 TEST(LightSet, DoesNotTradeTexelsWhereADemandDependsOnTheMapThatItIsMeasuredOn) {
     int traded = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        EXPECT_EQ(lateChanges(seed, false), 0) << "scene " << seed;
-        traded += lateChanges(seed, true) > 0 ? 1 : 0;
+        using enum rc::Rules;
+        EXPECT_EQ(changesIn(seed, fallsRemembered, 700, 64 * 45), 0) << "scene " << seed;
+        EXPECT_EQ(changesIn(seed, fallsRemembered, 4000, 3 * 64 * 45), 0)
+            << "tried again once in scene " << seed;
+        EXPECT_EQ(changesIn(seed, needsRemembered, 700, 64 * 45), 0);
+        traded += changesIn(seed, nothingRemembered, 700, 64 * 45) > 0 ? 1 : 0;
     }
     EXPECT_GT(traded, 5) << "scenes in which it would, were no fall remembered";
 }
 
-TEST(LightSet, AFallThatWasTakenBackIsTriedAgainAfterACutOrToAnotherNeed) {
-    const auto held = [](double then, bool cut) {
-        Fixture f(1);
-        const auto frames = [&](int count, double texels, bool afterCut = false) {
-            for (int i = 0; i < count; ++i)
-                f.update({needing(texels - 0.5, {.cameraCut = afterCut && i == 0})});
-            return f.lights.heldNeed(0).texels;
-        };
-        frames(1, 1000);
-        EXPECT_EQ(frames(60, 500), 500);
-        EXPECT_EQ(frames(60, 1000), 1000);
-        EXPECT_EQ(frames(600, 480), 1000) << "about what it fell to in vain";
-        return frames(120, then, cut);
+/// A light that asks for 500 texels or, where its map is below 728, for 1000.
+struct Grudging {
+    explicit Grudging(std::size_t lights) : f(lights) {}
+    /// Frames in which the first light's demand is `factor` times as large.
+    void frames(int count, double factor = 1, const rc::Frame& first = {}) {
+        for (int i = 0; i < count; ++i) {
+            const double texels = f.decisions[0].size < 728 ? 1000 : 500;
+            std::vector<LightData> data{needing(texels * factor, i == 0 ? first : rc::Frame{})};
+            if (f.decisions.size() > 1) data.push_back(needing(2000));
+            f.update(data, budget);
+            heldFell += f.lights.heldNeed(0).texels < held;
+            held = f.lights.heldNeed(0).texels;
+        }
+    }
+    Fixture f;
+    std::optional<std::int64_t> budget;
+    std::int32_t held = 0;
+    int heldFell = 0;
+};
+
+// What a need fell to in vain is tried again ever more rarely, and at once in another scene.
+TEST(LightSet, ANeedThatFellInVainPausesUntilTheSceneChanges) {
+    const auto settled = [] {
+        Grudging g(2);
+        g.budget = 2048 * 2048 + 1;  // the other takes all that it can
+        g.f.decisions[0].size = 1024;
+        g.frames(400);
+        EXPECT_EQ(g.heldFell, 1) << "once in vain";
+        EXPECT_GE(g.held, 1000);
+        return g;
     };
-    EXPECT_EQ(held(500, false), 1000);
-    EXPECT_EQ(held(500, true), 500);
-    EXPECT_EQ(held(300, false), 300);
+    Grudging still = settled();
+    still.frames(64 * 45);
+    EXPECT_EQ(still.heldFell, 2);
+    still.frames(64 * 45);
+    EXPECT_EQ(still.heldFell, 2) << "the second pause is twice as long";
+    Grudging cut = settled();
+    cut.frames(1, 1, {.cameraCut = true});
+    EXPECT_EQ(cut.heldFell, 2);
+    Grudging other = settled();
+    other.frames(100, 0.3);
+    EXPECT_LE(other.held, 301);
+}
+
+// A light whose need fell, rose and fell again because its scene did takes nothing from the others
+// once it has waited: neither in what it holds nor in what is reserved for it.
+TEST(LightSet, ANeedThatTheSceneTakesBackStarvesNobody) {
+    for (const int up : {50, 60, 90, 300}) {
+        Fixture f(2);
+        const std::int64_t budget = 2048 * 2048 + 600 * 600;
+        const auto frames = [&](int count, double texels) {
+            rc::LightSummary summary;
+            for (int i = 0; i < count; ++i)
+                summary = f.update({needing(texels), needing(2000)}, budget);
+            return summary;
+        };
+        frames(100, 1000);
+        EXPECT_EQ(f.decisions[1].size, 1456) << "there is no more";
+        for (int swing = 0; swing < 3; ++swing) {
+            frames(60, 500);
+            EXPECT_EQ(f.decisions[1].size, 2048);
+            frames(up, 1000);
+            EXPECT_EQ(f.decisions[1].size, 1456);
+        }
+        const rc::LightSummary summary = frames(2 * 45, 500);
+        EXPECT_LE(f.lights.heldNeed(0).texels, 501) << up;
+        EXPECT_EQ(f.decisions[1].size, 2048) << up;
+        EXPECT_LE(summary.worstArtifactRatio, 1);
+    }
+}
+
+// Where a pause does keep a need up, the light gets no more than it would choose.
+TEST(LightSet, APauseReservesNothingThatTheLightDoesNotUse) {
+    Grudging g(2);
+    g.budget = 2048 * 2048 + 1;
+    g.f.decisions[0].size = 1024;
+    g.frames(400);
+    EXPECT_EQ(g.f.decisions[1].size, 1456);
+    g.budget = 2048 * 2048 + 740 * 740;  // the first light's 728 beside it, not its 1024
+    g.frames(1);
+    EXPECT_GE(g.held, 1000);
+    EXPECT_TRUE(g.f.lights.heldNeed(0).falls.pauses());
+    EXPECT_EQ(g.f.decisions[0].size, 728);
+    EXPECT_EQ(g.f.decisions[1].size, 2048);
 }
 
 TEST(LightSet, BudgetCountsLayersAndBytes) {
@@ -307,14 +377,14 @@ TEST(LightSet, SettlesFromAnyStartWithinFourChanges) {
     }
 }
 
-// The promise to replays and networked games: this number is the same for every compiler, library
-// and machine. It changes when a rule does, and then the major version of the trace must, too.
-TEST(LightSet, DecidesTheSameOnEveryMachine) {
+/// Of decisions that hang on everything.
+std::uint64_t hashOfDecisions(rc::Rules rules) {
     std::mt19937_64 rng(2024);
     rc::LightSet lights(std::vector<rc::Settings>{
         {.slope = {.c = 3.1, .contrastExponent = 0.23}, .crossFadeFrames = 7},
         {.levelRatio = rc::LevelRatio::two},
         {.percentile = 0.9, .textureSize = 4096}});
+    lights.decideBy(rules);
     std::vector<rc::Decision> decisions(3);
     std::uint64_t hash = 14695981039346656037u;
     const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
@@ -344,7 +414,15 @@ TEST(LightSet, DecidesTheSameOnEveryMachine) {
             add(std::bit_cast<std::uint64_t>(d.artifactRatio));
         }
     }
-    EXPECT_EQ(hash, 3549361728995034992u);
+    return hash;
+}
+
+// The promise to replays and networked games: these numbers are the same for every compiler,
+// library and machine. A new rule is a new minor version of the trace with a number of its own.
+TEST(LightSet, DecidesTheSameOnEveryMachine) {
+    EXPECT_EQ(hashOfDecisions(rc::Rules::nothingRemembered), 11616860303923398892u);
+    EXPECT_EQ(hashOfDecisions(rc::Rules::needsRemembered), 3549361728995034992u);
+    EXPECT_EQ(hashOfDecisions(rc::Rules::fallsRemembered), 9849580112280868180u);
 }
 
 }  // namespace

@@ -3,14 +3,18 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -230,6 +234,173 @@ TEST(ResolutionController, NeverOscillatesOnASteadyScene) {
         EXPECT_LE(lowerings, 1) << need;
         EXPECT_LE(raises * lowerings, 0) << "up and down again at " << need;
         EXPECT_LE(lastChange, 590);
+    }
+}
+
+/// A still scene whose need is another on every size, heard a few frames late and in the sum of
+/// the last ones, as in a renderer. For each frame whether the size changed.
+std::vector<bool> changesInStillScene(const std::function<double(std::int32_t)>& needOn,
+                                      const rc::Settings& settings, int latency, int summed,
+                                      int frames) {
+    rc::ResolutionController controller(settings);
+    rc::RecentDemand recent(summed);
+    std::vector<std::int32_t> sizes(std::size_t(latency) + 1, controller.size());
+    std::vector<bool> changed;
+    for (int frame = 0; frame < frames; ++frame) {
+        rc::DemandHistogram seen;
+        seen.add(float(needOn(sizes[sizes.size() - 1 - std::size_t(latency)])), 100);
+        const rc::Decision d = controller.update(recent.add(seen));
+        sizes.push_back(d.size);
+        changed.push_back(d.changed);
+    }
+    return changed;
+}
+
+std::ptrdiff_t changesBefore(const std::vector<bool>& changed, int frame) {
+    return std::count(changed.begin(), changed.begin() + frame, true);
+}
+
+// Where the larger map asks for the smaller one and the smaller for the larger, the size goes down
+// once in vain; then again only in pauses that double.
+TEST(ResolutionController, RestsInAStillSceneWhoseNeedDependsOnTheSize) {
+    const auto needOn = [](std::int32_t size) { return size < 8192 ? 5810 : 4000; };
+    for (const std::int32_t start : {64, 1024, 5800, 8192}) {
+        for (const auto& [latency, summed] : {std::pair{0, 1}, {3, 1}, {3, 16}, {4, 36}}) {
+            const auto changed =
+                changesInStillScene(needOn, {.startSize = start}, latency, summed, 100'000);
+            const int wait = 45, pause = 64 * wait, slack = 4 * wait;
+            EXPECT_LE(changesBefore(changed, pause), 4) << start << ' ' << summed;
+            for (int pauses = 1, time = slack; time < int(changed.size()); pauses *= 2) {
+                const auto from = changed.begin() + time;
+                time = std::min(time + pauses * (pause - slack), int(changed.size()));
+                EXPECT_EQ(std::count(from, changed.begin() + time, true), 0)
+                    << "before pause " << pauses << " is over";
+                time += pauses * slack + slack;
+            }
+            EXPECT_LE(std::count(changed.begin(), changed.end(), true), 4 + 2 * 5);
+        }
+    }
+}
+
+// Whatever the need on each size, within half an octave either way.
+TEST(ResolutionController, ComesToRestWhateverTheNeedOnEachSize) {
+    constexpr int kScenes = 300, kPause = 64 * 45;
+    int oscillated = 0, manyChanges = 0;
+    for (int scene = 0; scene < kScenes; ++scene) {
+        std::mt19937_64 rng(std::uint64_t(scene) + 1);
+        std::uniform_real_distribution<double> logNeed(6, 13), logFactor(-0.5, 0.5);
+        const double need = std::exp2(logNeed(rng));
+        std::map<std::int32_t, double> factors;
+        for (const std::int32_t level : rc::kLevels) factors[level] = std::exp2(logFactor(rng));
+        const auto needOn = [&](std::int32_t size) { return need * factors.at(size); };
+        const rc::Settings settings{.startSize = 64 << (rng() % 8)};
+        const auto changed = changesInStillScene(needOn, settings, 3, 4, kPause);
+        manyChanges += changesBefore(changed, kPause) > 4;
+        EXPECT_EQ(std::count(changed.begin() + 700, changed.end(), true), 0) << scene;
+        rc::ResolutionController forgetting(settings);
+        forgetting.decideBy(rc::Rules::nothingRemembered);
+        int late = 0;
+        for (int frame = 0; frame < 2000; ++frame) {
+            const rc::Decision d = forgetting.update(radiusFor(needOn(forgetting.size())));
+            late += frame > 1000 && d.changed;
+        }
+        oscillated += late > 0;
+    }
+    EXPECT_GT(oscillated, 5) << "scenes in which it would not, were no fall remembered";
+    EXPECT_LE(manyChanges, kScenes / 50);
+}
+
+// A need that swings because the scene does is followed as if nothing were remembered.
+TEST(ResolutionController, FollowsASceneThatSwings) {
+    for (const int high : {50, 60, 90, 200}) {
+        for (const int low : {50, 60, 80, 100}) {
+            rc::ResolutionController controller({}), forgetting({});
+            forgetting.decideBy(rc::Rules::nothingRemembered);
+            for (int frame = 0; frame < 20 * (high + low); ++frame) {
+                const double radius = radiusFor(frame % (high + low) < high ? 1000 : 400);
+                const std::int32_t size = controller.update(radius).size;
+                ASSERT_EQ(size, forgetting.update(radius).size) << high << ' ' << low;
+            }
+        }
+    }
+    // Faster ones: never below what is asked for, and at most a pause late when all is at rest.
+    for (const int high : {5, 20, 44}) {
+        rc::ResolutionController controller({});
+        for (int frame = 0; frame < 20 * (high + 50); ++frame) {
+            const rc::Decision d =
+                controller.update(radiusFor(frame % (high + 50) < high ? 1000 : 400));
+            ASSERT_GE(d.size, d.need);
+        }
+        for (int frame = 0; frame < 66 * 45; ++frame) controller.update(radiusFor(400));
+        EXPECT_EQ(controller.size(), 512) << high;
+    }
+}
+
+// As random a walk as a camera takes: the mean size is that without a memory within a hundredth of
+// an octave.
+TEST(ResolutionController, AMovingSceneIsNotSlower) {
+    double octaves = 0;
+    int frames = 0;
+    for (int walk = 0; walk < 20; ++walk) {
+        std::mt19937_64 rng(std::uint64_t(walk) + 1);
+        std::normal_distribution<double> step(0, 0.03);
+        rc::ResolutionController controller({}), forgetting({});
+        forgetting.decideBy(rc::Rules::nothingRemembered);
+        for (double logNeed = 9; frames < 10'000 * (walk + 1); ++frames) {
+            logNeed = std::clamp(logNeed + step(rng), 6.5, 12.0);
+            const double radius = radiusFor(std::exp2(logNeed));
+            octaves +=
+                std::log2(double(controller.update(radius).size) / forgetting.update(radius).size);
+        }
+    }
+    EXPECT_NEAR(octaves / frames, 0, 0.01);
+}
+
+TEST(ResolutionController, ForgetsFallsInVainAtACutWithOtherSettingsAndWithDataOfAnotherKind) {
+    const auto inPause = [] {
+        rc::ResolutionController controller({});
+        for (int frame = 0; frame < 200; ++frame)
+            controller.update(radiusFor(controller.size() < 1024 ? 1000 : 500));
+        EXPECT_EQ(controller.size(), 1024);
+        EXPECT_TRUE(controller.state().falls.pauses());
+        return controller;
+    };
+    rc::ResolutionController waiting = inPause(), cut = inPause(), set = inPause(),
+                             other = inPause(), less = inPause(), older = inPause();
+    EXPECT_EQ(cut.update(radiusFor(500), {.cameraCut = true}).size, 512);
+    EXPECT_EQ(set.reconfigure({.startSize = 64}), "");
+    older.decideBy(rc::Rules::needsRemembered);
+    for (int frame = 0; frame < 60; ++frame) {
+        waiting.update(radiusFor(500));
+        set.update(radiusFor(500));
+        other.update(histogramOf({{500.0f, 9}}));
+        older.update(radiusFor(500));
+    }
+    for (int frame = 0; frame < 2 * 45; ++frame) less.update(radiusFor(350));
+    EXPECT_EQ(waiting.size(), 1024);
+    EXPECT_EQ(set.size(), 728);
+    EXPECT_EQ(other.size(), 728);
+    EXPECT_EQ(older.size(), 728);
+    EXPECT_EQ(less.size(), 512) << "another scene";
+}
+
+// As a damaged trace may hold it, and over and over.
+TEST(ResolutionController, PausesNeverOverflow) {
+    constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+    for (const std::int32_t wait : {0, 1, 45, kMost}) {
+        rc::FallMemory falls;
+        for (int fall = 0, last = 0; fall < 100; ++fall) {
+            falls.fell(wait, 2);
+            EXPECT_GE(falls.trialFrames, std::max(std::min(wait, kMost / 2) * 2, 45));
+            falls.rose(wait);
+            EXPECT_GE(falls.pauseFrames, last);
+            EXPECT_EQ(rc::validate(falls), "");
+            last = falls.pauseFrames;
+        }
+        EXPECT_EQ(falls.pauseFrames, wait > 45 ? kMost : 64 * std::max(wait, 1) << 19);
+        falls.framesOnSize = falls.trialFrames = kMost;
+        falls.pass(100, 0, wait);
+        EXPECT_EQ(rc::validate(falls), "");
     }
 }
 

@@ -3,14 +3,12 @@
 
 #include <gmock/gmock.h>
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <random>
 #include <span>
 #include <vector>
 
-#include "resolution_controller/trace_bytes.h"
 #include "tests/resolution_controller/counting_new.h"
 
 namespace {
@@ -147,31 +145,16 @@ TEST(Trace, WritingAllocatesNothing) {
 
 constexpr std::size_t kMinorAt = 10;  // in the header, after name and major version
 
-template <typename... T>
-std::size_t bytesOf(const T&... values) {
-    std::array<std::byte, 1000> room{};
-    rc::ByteWriter out(room);
-    (fields(out, values), ...);
-    return out.used();
-}
-
-/// As an older version would have written it: before 1.2 without the falls of needs.
-std::vector<std::byte> ofMinor(unsigned char minor, std::span<const std::byte> trace,
-                               std::size_t lights) {
+std::vector<std::byte> ofMinor(unsigned char minor, std::span<const std::byte> trace) {
     std::vector<std::byte> bytes(trace.begin(), trace.end());
     bytes.at(kMinorAt) = std::byte{minor};
-    std::ptrdiff_t at = 16;
-    for (std::size_t i = 0; minor < 2 && i < lights; ++i) {
-        at += static_cast<std::ptrdiff_t>(bytesOf(rc::Settings{}, rc::ControllerState{}) + 12);
-        bytes.erase(bytes.begin() + at, bytes.begin() + at + 13);
-    }
     return bytes;
 }
 
 /// Another value in place of a trace's last number: the least radius of its last decision.
 std::vector<std::byte> endingWith(double minRadiusUv, std::span<const std::byte> trace,
                                   unsigned char minor) {
-    std::vector<std::byte> bytes = ofMinor(minor, trace, 1);
+    std::vector<std::byte> bytes = ofMinor(minor, trace);
     const auto bits = std::bit_cast<std::uint64_t>(minRadiusUv);
     for (std::size_t i = 0; i < sizeof bits; ++i)
         bytes[bytes.size() - sizeof bits + i] = static_cast<std::byte>(bits >> (8 * i));
@@ -183,60 +166,78 @@ TEST(Trace, ReplaysOlderVersionsByTheRulesOfTheirTime) {
     const rc::Settings oldSlope{.slope = {.c = 3}, .maxSize = 512};
     const rc::Settings newSlope{.slope = {.c = 6}, .maxSize = 512};
     for (const bool beforeTheTrace : {false, true}) {
-        rc::LightSet lights(std::vector{oldSlope});
-        std::vector<std::byte> buffer(1 << 16);
-        rc::TraceWriter writer(buffer);
-        std::vector<rc::LightData> data{{.kind = rc::LightData::Kind::radius, .radiusUv = 0.0001}};
-        std::vector<rc::Decision> decisions(1);
-        writer.begin(lights);
-        const auto next = [&] {
-            lights.update(data, decisions);
-            writer.frame(data, {}, decisions);
-        };
-        next();
-        ASSERT_EQ(decisions[0].minRadiusUv, 3.0 / 512);
-        lights.reconfigure(0, newSlope);
-        writer.reconfigured(0, newSlope);
-        if (beforeTheTrace) writer.begin(lights);
-        data[0] = {};
-        next();
-        ASSERT_EQ(decisions[0].minRadiusUv, 6.0 / 512);
-        const auto problem = [&](double least, unsigned char minor) {
-            return rc::replay(endingWith(least, writer.bytes(), minor)).problem;
-        };
-        EXPECT_EQ(problem(3.0 / 512, 0), "");
-        EXPECT_EQ(problem(6.0 / 512, 1), "");
-        EXPECT_THAT(problem(6.0 / 512, 0), HasSubstr("light 0: recorded 512 (held: no data"));
-        EXPECT_THAT(problem(3.0 / 512, 1), HasSubstr("light 0: recorded 512 (held: no data"));
-        EXPECT_EQ(problem(6.0 / 512, 2), "");
-        EXPECT_THAT(problem(6.0 / 512, 3),
-                    HasSubstr("trace, byte 16: minor version is 3: must be at most 2"));
+        for (unsigned char minor = 0; minor < 4; ++minor) {
+            rc::LightSet lights(std::vector{oldSlope});
+            lights.decideBy(minor == 0 ? rc::Rules::nothingRemembered : rc::Rules(minor));
+            std::vector<std::byte> buffer(1 << 16);
+            rc::TraceWriter writer(buffer);
+            std::vector<rc::LightData> data{
+                {.kind = rc::LightData::Kind::radius, .radiusUv = 0.0001}};
+            std::vector<rc::Decision> decisions(1);
+            writer.begin(lights);
+            const auto next = [&] {
+                lights.update(data, decisions);
+                writer.frame(data, {}, decisions);
+            };
+            next();
+            ASSERT_EQ(decisions[0].minRadiusUv, 3.0 / 512);
+            lights.reconfigure(0, newSlope);
+            writer.reconfigured(0, newSlope);
+            if (beforeTheTrace) writer.begin(lights);
+            data[0] = {};
+            next();
+            ASSERT_EQ(decisions[0].minRadiusUv, 6.0 / 512);
+            const auto problem = [&](double least) {
+                return rc::replay(endingWith(least, writer.bytes(), minor)).problem;
+            };
+            EXPECT_EQ(problem((minor == 0 ? 3.0 : 6.0) / 512), "");
+            EXPECT_THAT(problem((minor == 0 ? 6.0 : 3.0) / 512),
+                        HasSubstr("light 0: recorded 512 (held: no data"));
+            EXPECT_THAT(rc::replay(ofMinor(4, writer.bytes())).problem,
+                        HasSubstr("trace, byte 16: minor version is 4: must be at most 3"));
+        }
     }
 }
 
-// Before 1.2 a need fell again as often as it had been taken back.
-TEST(Trace, ReplaysFallsOfNeedsByTheRulesOfTheirTime) {
-    for (const bool forgetting : {true, false}) {
-        rc::LightSet lights(std::vector<rc::Settings>(2));
-        if (forgetting) lights.forgetFalls();
-        std::vector<std::byte> buffer(1 << 20);
-        rc::TraceWriter writer(buffer);
-        writer.begin(lights);
+// Before 1.2 a need fell again as often as it had been taken back, in 1.2 never again, and before
+// 1.3 sizes did as needs before 1.2.
+TEST(Trace, OfASetThatDecidesByOlderRulesIsOfTheirVersionAndReplays) {
+    std::vector<std::vector<double>> decided;
+    using enum rc::Rules;
+    for (const rc::Rules rules : {nothingRemembered, needsRemembered, fallsRemembered}) {
+        rc::LightSet lights(std::vector<rc::Settings>(2, {.crossFadeFrames = 6}));
+        lights.decideBy(rules);
         std::vector<rc::Decision> decisions(2);
-        for (int frame = 0; frame < 400; ++frame) {
-            const auto needing = [](double texels) {
-                return rc::LightData{.kind = rc::LightData::Kind::radius,
-                                     .radiusUv = 3.47 / texels};
-            };
-            const std::vector<rc::LightData> data{needing(frame % 100 < 50 ? 1000 : 500),
-                                                  needing(1000)};
-            const rc::Budget budget{.texels = 3 * 512 * 512};
-            lights.update(data, decisions, budget);
-            writer.frame(data, budget, decisions);
-        }
-        EXPECT_EQ(rc::replay(ofMinor(1, writer.bytes(), 2)).same, forgetting);
-        EXPECT_EQ(rc::replay(ofMinor(2, writer.bytes(), 2)).same, !forgetting);
+        std::vector<double>& all = decided.emplace_back();
+        int frame = 0;
+        const auto record = [&](int frames) {
+            std::vector<std::byte> buffer(1 << 20);
+            rc::TraceWriter writer(buffer);
+            writer.begin(lights);
+            for (const int end = frame + frames; frame < end; ++frame) {
+                const auto needing = [](double texels) {
+                    return rc::LightData{.kind = rc::LightData::Kind::radius,
+                                         .radiusUv = 3.47 / texels};
+                };
+                const std::vector<rc::LightData> data{needing(frame % 100 < 50 ? 1000 : 500),
+                                                      needing(frame % 60 < 5             ? 1000
+                                                              : decisions[1].size < 1456 ? 1400
+                                                                                         : 700)};
+                const rc::Budget budget{.texels = 3 * 512 * 512 + 1456 * 1456 * (frame / 300 % 2)};
+                lights.update(data, decisions, budget);
+                writer.frame(data, budget, decisions);
+                for (const rc::Decision& d : decisions)
+                    all.insert(all.end(), {double(d.size), d.fadeWeight, d.minRadiusUv});
+            }
+            EXPECT_EQ(int(writer.bytes()[kMinorAt]), int(rules));
+            const rc::ReplayReport report = rc::replay(writer.bytes());
+            EXPECT_EQ(report.problem, "");
+            EXPECT_EQ(report.frames, std::uint64_t(frames));
+        };
+        for (int begun = 0; begun < 60; ++begun) record(17);  // from any state
     }
+    EXPECT_NE(decided[0], decided[1]);
+    EXPECT_NE(decided[1], decided[2]);
 }
 
 TEST(Trace, RefusesWhatIsNone) {
