@@ -328,6 +328,7 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
         ++s.framesBelow;
         return current;
     }
+    if (remembers && fades()) return current;
     if (s.falls.pauses()) return startOver(current);
 
     // As far down at once as the whole wait allows: a size for each level would pop at each.
@@ -424,27 +425,65 @@ Decision ResolutionController::held(Reason reason, const Frame& frame) noexcept 
     return finish(d, state_.hadData);
 }
 
+/// Whether the fade that runs goes on in this frame.
+bool ResolutionController::fades() const noexcept {
+    const double step = 1.0 / (settings_.crossFadeFrames + 1);
+    return state_.fadeFrame != ControllerState::kNever &&
+           state_.last.fadeWeight + step < 1 - step / 2;  // whatever the sum was rounded to
+}
+
+ResolutionController::Fade ResolutionController::fade(const Decision& d, bool mayFade) noexcept {
+    ControllerState& s = state_;
+    const Fade none{.fromSize = d.size};
+    const double step = 1.0 / (settings_.crossFadeFrames + 1);
+    const bool running = fades();
+    double before = running ? s.last.fadeWeight : 0;
+    std::int32_t from = s.last.fadeFromSize;
+    if (d.changed) {
+        if (running && d.size == from) {
+            before = 1 - s.last.fadeWeight;
+            from = d.previousSize;
+        } else if (!running || before >= 0.5) {
+            before = 0;
+            from = d.previousSize;
+        }
+        s.fadeFrame = 1;
+    }
+    const bool goesOn = mayFade && (running || d.changed) && before + step < 1 - step / 2;
+    if (!goesOn) {
+        s.fadeFrame = ControllerState::kNever;
+        return none;
+    }
+    return {.fromSize = from, .weight = before + step, .stepsLeft = (1 - before) / step};
+}
+
+ResolutionController::Fade ResolutionController::fadeBefore13(const Decision& d,
+                                                              bool mayFade) noexcept {
+    ControllerState& s = state_;
+    const std::int32_t frames = settings_.crossFadeFrames;
+    if (d.changed) s.fadeFrame = mayFade ? 1 : ControllerState::kNever;
+    if (s.fadeFrame > frames) {
+        s.fadeFrame = ControllerState::kNever;
+        return {.fromSize = d.size};
+    }
+    return {.fromSize = d.changed ? d.previousSize : s.last.fadeFromSize,
+            .weight = static_cast<double>(s.fadeFrame) / (frames + 1),
+            .stepsLeft = static_cast<double>(frames) + 2 - s.fadeFrame};
+}
+
 /// What follows from the size: the change, the fade and the constants.
 Decision ResolutionController::finish(Decision d, bool mayFade) noexcept {
     ControllerState& s = state_;
-    const std::int32_t frames = settings_.crossFadeFrames;
     d.previousSize = s.last.size;
     d.changed = d.size != d.previousSize;
-    d.fadeFromSize = s.last.fadeFromSize;
-    if (d.changed) {
-        d.fadeFromSize = d.previousSize;
-        s.fadeFrame = mayFade ? 1 : ControllerState::kNever;
-    }
-    d.fadeWeight = 1;
-    if (s.fadeFrame <= frames) {
-        d.fadeWeight = static_cast<double>(s.fadeFrame) / (frames + 1);
+    const Fade shown =
+        rules_ >= Rules::fallsRemembered ? fade(d, mayFade) : fadeBefore13(d, mayFade);
+    d.fadeFromSize = shown.fromSize;
+    d.fadeWeight = shown.weight;
+    if (d.fadeWeight < 1) {
         // In equal steps, as the maps: a radius that is another at once would jump as far as the
         // size is kept from doing.
-        d.minRadiusUv = s.last.minRadiusUv +
-                        (d.minRadiusUv - s.last.minRadiusUv) / (frames + 2 - s.fadeFrame);
-    } else {
-        s.fadeFrame = ControllerState::kNever;
-        d.fadeFromSize = d.size;
+        d.minRadiusUv = s.last.minRadiusUv + (d.minRadiusUv - s.last.minRadiusUv) / shown.stepsLeft;
     }
     const double radius = s.radiusUv > 0 ? std::max(s.radiusUv, d.minRadiusUv) : 0;
     d.map = constantsFor(d.size, settings_.textureSize, radius,

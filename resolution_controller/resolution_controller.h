@@ -56,8 +56,8 @@ struct Settings {
 
     /// A map is lowered when for so many frames with data (>= 0) ...
     std::int32_t lowerAfterFrames = 45;
-    /// ... the demand was below this share, in percent (1 to 100), of a lower level. It waits
-    /// longer after a lowering that had to be taken back (fall_memory.h).
+    /// ... the demand was below this share, in percent (1 to 100), of a lower level. It waits for
+    /// the end of a fade, and longer after a lowering that had to be taken back (fall_memory.h).
     std::int32_t lowerBelowPercent = 80;
 
     /// Size until the first data come; taken to the next level within the limits. > 0.
@@ -154,8 +154,12 @@ struct Decision {
     std::int32_t previousSize = 0;  ///< of the frame before; equal to size unless `changed`
     bool changed = false;
     /// While fadeWeight is below 1: show fadeWeight x this size's shadow + (1 - fadeWeight) x that
-    /// of a map with fadeFromSize. Another change meanwhile starts a new fade from the size it
-    /// leaves.
+    /// of a map with fadeFromSize. Where the size changes meanwhile (to a larger one or, at a
+    /// limit, a smaller; other lowerings wait for the fade's end), the map with the larger share of
+    /// the picture stays in it: where fadeWeight was below 1/2, fadeFromSize stays and the weight
+    /// steps on; else a new fade starts from the size that is left. Back to fadeFromSize the fade
+    /// turns round. So beside a step, 1 / (crossFadeFrames + 1), no more than half of the picture
+    /// is replaced in a frame. Other crossFadeFrames go on from the present weight.
     std::int32_t fadeFromSize = 0;
     double fadeWeight = 1;
     Reason reason = Reason::heldWithoutData;
@@ -181,7 +185,8 @@ struct Decision {
 enum class Rules : std::uint16_t {
     nothingRemembered = 1,  ///< what falls, falls again as often as it is taken back
     needsRemembered = 2,    ///< a need in a budget does not, for ever
-    fallsRemembered = 3     ///< nor does a size, for a while (fall_memory.h)
+    fallsRemembered = 3     ///< nor does a size, for a while (fall_memory.h); a fade keeps the map
+                            ///< with the larger share
 };
 inline constexpr Rules kPresentRules = Rules::fallsRemembered;
 
@@ -268,6 +273,16 @@ class ResolutionController {
                      const Limits& limits) const noexcept;
     Decision held(Reason reason, const Frame& frame) noexcept;
     Decision finish(Decision decision, bool mayFade) noexcept;
+
+    /// How a frame shows two maps.
+    struct Fade {
+        std::int32_t fromSize;
+        double weight = 1;
+        double stepsLeft = 1;  ///< to its end, this one among them
+    };
+    bool fades() const noexcept;
+    Fade fade(const Decision& decision, bool mayFade) noexcept;
+    Fade fadeBefore13(const Decision& decision, bool mayFade) noexcept;
 
     Rules rules_ = kPresentRules;
     Settings settings_;

@@ -224,7 +224,7 @@ typedef struct stairwell_decision {
     int32_t changed;
     int32_t reason;
     int32_t need;
-    int32_t fade_from_size;
+    int32_t fade_from_size; /* another change in a fade leaves it while fade_weight is below 1/2 */
     double fade_weight;
     double artifact_ratio;
     double share_above;

@@ -2,8 +2,11 @@
 // What a frame and its settings add to the law: cuts, fades, contrast, detail, texel constants.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <random>
 #include <stdexcept>
 
 #include "resolution_controller/resolution_controller.h"
@@ -94,13 +97,108 @@ TEST(CrossFade, TakesTheLeastRadiusAlong) {
         EXPECT_EQ(enough.update(radiusFor(4000)).minRadiusUv, 0);
 }
 
-TEST(CrossFade, StartsAnewFromTheSizeItLeaves) {
-    rc::ResolutionController controller({.crossFadeFrames = 10});
+/// The share of the picture that is replaced from one frame to the next.
+double replaced(const rc::Decision& before, const rc::Decision& now) {
+    std::map<std::int32_t, double> shares;
+    shares[now.size] += now.fadeWeight;
+    shares[now.fadeFromSize] += 1 - now.fadeWeight;
+    shares[before.size] -= before.fadeWeight;
+    shares[before.fadeFromSize] -= 1 - before.fadeWeight;
+    double sum = 0;
+    for (const auto& [size, share] : shares) sum += std::max(share, 0.0);
+    return sum;
+}
+
+TEST(CrossFade, KeepsTheMapWithTheLargerShareWhereTheSizeChangesAgain) {
+    rc::ResolutionController controller({.crossFadeFrames = 9});
+    controller.update(radiusFor(500));
+    for (int frame = 1; frame <= 4; ++frame) controller.update(radiusFor(1000));
+    const rc::Decision goesOn = controller.update(radiusFor(2000));
+    EXPECT_EQ(goesOn.previousSize, 1024);
+    EXPECT_EQ(goesOn.fadeFromSize, 512) << "still six tenths of the picture";
+    EXPECT_DOUBLE_EQ(goesOn.fadeWeight, 0.5);
+    const rc::Decision anew = controller.update(radiusFor(4000));
+    EXPECT_EQ(anew.fadeFromSize, 2048) << "now half of it";
+    EXPECT_DOUBLE_EQ(anew.fadeWeight, 0.1);
+    const rc::Decision back = controller.hold({.budgetSize = 2048});
+    EXPECT_EQ(back.size, 2048);
+    EXPECT_EQ(back.fadeWeight, 1) << "it has just begun, and turns round";
+}
+
+TEST(CrossFade, TurnsRoundWhereTheSizeGoesBack) {
+    rc::ResolutionController controller({.crossFadeFrames = 9});
+    controller.update(radiusFor(500));
+    for (int frame = 1; frame <= 3; ++frame) controller.update(radiusFor(1000));
+    const rc::Decision back = controller.update(radiusFor(1000), {.budgetSize = 512});
+    EXPECT_EQ(back.size, 512);
+    EXPECT_EQ(back.fadeFromSize, 1024);
+    EXPECT_DOUBLE_EQ(back.fadeWeight, 0.8);
+    EXPECT_DOUBLE_EQ(controller.hold({.budgetSize = 512}).fadeWeight, 0.9);
+    EXPECT_DOUBLE_EQ(controller.hold({.budgetSize = 512}).fadeWeight, 1);
+}
+
+// Whatever the demands, the limits and the settings do: half of the picture at most, beside a
+// step; and a fade ends.
+TEST(CrossFade, ReplacesAtMostHalfOfThePictureBesideAStep) {
+    for (int run = 0; run < 200; ++run) {
+        std::mt19937_64 rng(std::uint64_t(run) + 1);
+        rc::Settings settings{.lowerAfterFrames = 1 + int(rng() % 9),
+                              .crossFadeFrames = 1 + int(rng() % 30)};
+        rc::ResolutionController controller(settings);
+        double need = 500;
+        rc::Decision last = controller.update(radiusFor(need));
+        for (int frame = 0; frame < 400; ++frame) {
+            if (rng() % 4 == 0)
+                need = std::clamp(need * std::exp2(double(rng() % 5) - 2), 70.0, 8000.0);
+            rc::Frame about;
+            if (frame / 20 % 3 == 2) about.budgetSize = 64 << (rng() % 7);
+            if (rng() % 25 == 0) {
+                settings.crossFadeFrames = 1 + int(rng() % 30);
+                controller.reconfigure(settings);
+            }
+            const rc::Decision d =
+                rng() % 5 ? controller.update(radiusFor(need), about) : controller.hold(about);
+            const double step = 1.0 / (settings.crossFadeFrames + 1);
+            ASSERT_LE(replaced(last, d), 0.5 + step + 1e-9) << run << ' ' << frame;
+            if (d.fadeFromSize == last.fadeFromSize && last.fadeWeight < 1 && d.size == last.size) {
+                ASSERT_GT(d.fadeWeight, last.fadeWeight);
+            }
+            const bool lowered = d.changed && d.size < d.previousSize;
+            ASSERT_FALSE(lowered && last.fadeWeight + step < 1 - step / 2 && !about.budgetSize)
+                << "a lowering waits for the end";
+            last = d;
+        }
+        for (int frame = 0; frame < 1000; ++frame) last = controller.update(radiusFor(need));
+        EXPECT_EQ(last.fadeWeight, 1);
+        EXPECT_EQ(last.fadeFromSize, last.size);
+    }
+}
+
+TEST(CrossFade, ALoweringWaitsForItsEnd) {
+    rc::ResolutionController controller({.lowerAfterFrames = 3, .crossFadeFrames = 9});
     controller.update(radiusFor(500));
     controller.update(radiusFor(1000));
-    const rc::Decision d = controller.update(radiusFor(2000));
-    EXPECT_EQ(d.fadeFromSize, 1024);
-    EXPECT_DOUBLE_EQ(d.fadeWeight, 1.0 / 11);
+    for (int frame = 2; frame <= 9; ++frame) {
+        const rc::Decision d = controller.update(radiusFor(100));
+        EXPECT_EQ(d.size, 1024);
+        EXPECT_DOUBLE_EQ(d.fadeWeight, frame / 10.0);
+    }
+    const rc::Decision lowered = controller.update(radiusFor(100));
+    EXPECT_EQ(lowered.size, 128) << "where the fade is over, having waited meanwhile";
+    EXPECT_EQ(lowered.fadeFromSize, 1024);
+    EXPECT_DOUBLE_EQ(lowered.fadeWeight, 0.1);
+}
+
+TEST(CrossFade, GoesOnFromItsWeightWhenTheFramesBecomeOthers) {
+    rc::ResolutionController controller({.crossFadeFrames = 9});
+    controller.update(radiusFor(500));
+    for (int frame = 1; frame <= 4; ++frame) controller.update(radiusFor(1000));
+    EXPECT_EQ(controller.reconfigure({.crossFadeFrames = 99}), "");
+    EXPECT_DOUBLE_EQ(controller.update(radiusFor(1000)).fadeWeight, 0.41) << "slower from here";
+    EXPECT_EQ(controller.reconfigure({.crossFadeFrames = 4}), "");
+    EXPECT_DOUBLE_EQ(controller.update(radiusFor(1000)).fadeWeight, 0.61) << "and faster";
+    EXPECT_EQ(controller.reconfigure({.crossFadeFrames = 0}), "");
+    EXPECT_EQ(controller.update(radiusFor(1000)).fadeWeight, 1);
 }
 
 TEST(CrossFade, IsAbsentByDefaultAndBeforeAnythingChanged) {

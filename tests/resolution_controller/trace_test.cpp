@@ -200,7 +200,7 @@ TEST(Trace, ReplaysOlderVersionsByTheRulesOfTheirTime) {
 }
 
 // Before 1.2 a need fell again as often as it had been taken back, in 1.2 never again, and before
-// 1.3 sizes did as needs before 1.2.
+// 1.3 sizes did as needs before 1.2 and fades had other rules.
 TEST(Trace, OfASetThatDecidesByOlderRulesIsOfTheirVersionAndReplays) {
     std::vector<std::vector<double>> decided;
     using enum rc::Rules;
