@@ -138,19 +138,25 @@ std::optional<std::filesystem::path> ownStateFile() {
 /// That of the window's last time, which nobody asked for; absent where it is of no use.
 std::optional<demo::ViewerState> keptState(const Options& options) {
     const auto own = ownStateFile();
-    if (!inWindow(options) || options.state || !own || !std::filesystem::exists(*own))
+    std::error_code unreadable;
+    if (!inWindow(options) || options.state || !own || !std::filesystem::exists(*own, unreadable))
         return std::nullopt;
     try {
         demo::ViewerState state = demo::readViewerState(*own);
-        if (state.slopeFile && !options.slope.file && !std::filesystem::exists(*state.slopeFile)) {
-            std::fprintf(stderr,
-                         "shadow_demo: note: %s, the slope of the last time, is not there; "
-                         "the published one is in use\n",
-                         state.slopeFile->c_str());
-            state.slopeFile.reset();
+        if (options.slope.file) state.slopeFile.reset();
+        if (state.slopeFile) {
+            try {
+                demo::loadSlope(state.slopeFile);
+            } catch (const std::exception& error) {
+                std::fprintf(stderr,
+                             "shadow_demo: note: the slope of the last time cannot be used: %s; "
+                             "beginning anew with the published one\n",
+                             error.what());
+                state.slopeFile.reset();
+            }
         }
         return state;
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
         std::fprintf(stderr, "shadow_demo: note: %s; beginning anew\n", error.what());
         return std::nullopt;
     }
@@ -272,9 +278,15 @@ void writeSequence(const Options& options, demo::Viewer& viewer) {
     std::printf("%d pictures in %s\n", frames, options.sequence->string().c_str());
 }
 
-void tellNotes(const renderer::Scene& scene) {
-    for (const std::string& note : scene.notes)
+void tellNotes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes)
         std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
+}
+
+void tellNotes(const demo::Viewer& viewer) {
+    // Of the published default the stats say as much.
+    if (viewer.state().slopeFile) tellNotes(viewer.slope().notes);
+    tellNotes(viewer.frame().scene().notes);
 }
 
 /// Pairs of frames for a design of the study.
@@ -282,7 +294,7 @@ void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
     const renderer::HeadlessContext context;
     renderer::Renderer frame(context.info(), renderer::openScene(state.scene), options.edge,
                              options.edge);
-    tellNotes(frame.scene());
+    tellNotes(frame.scene().notes);
     const demo::FramePlan plan{
         .technique = &renderer::findTechnique(state.technique),
         .parameters = parametersOf(state),
@@ -322,9 +334,6 @@ void demonstrate(const Options& options) {
     const std::optional<demo::ViewerState> kept = keptState(options);
     const demo::ViewerState state = stateOf(options, kept);
     if (options.writeFrames) return writeStudyFrames(options, state);
-    if (state.slopeFile)  // of the published default the stats say as much
-        for (const std::string& note : demo::loadSlope(state.slopeFile, state.audience).notes)
-            std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
 
     const renderer::ShaderLibrary shaders =
         options.shaders ? renderer::ShaderLibrary::fromFolder(*options.shaders)
@@ -332,7 +341,7 @@ void demonstrate(const Options& options) {
     if (options.headless) {
         const renderer::HeadlessContext context;
         demo::Viewer viewer(context.info(), state, options.width, options.height, shaders);
-        tellNotes(viewer.frame().scene());
+        tellNotes(viewer);
         if (options.trace) viewer.run().startTrace(kTraceBytes);
         const int settlingFrames = viewer.settle();
         if (options.sequence)
@@ -346,8 +355,10 @@ void demonstrate(const Options& options) {
     renderer::Window window("shadow_demo", options.width, options.height);
     std::unique_ptr<demo::Viewer> opened;
     const auto open = [&](const demo::ViewerState& shown) {
+        opened.reset();
         opened = std::make_unique<demo::Viewer>(window.info(), shown, options.width, options.height,
                                                 shaders);
+        opened->step();  // what the driver refuses comes out here
     };
     try {
         open(state);
@@ -360,7 +371,7 @@ void demonstrate(const Options& options) {
         open(stateOf(options, std::nullopt));
     }
     demo::Viewer& viewer = *opened;
-    tellNotes(viewer.frame().scene());
+    tellNotes(viewer);
     if (options.trace) viewer.run().startTrace(kTraceBytes);
     showViewer(window, viewer,
                {.frames = options.frames.value_or(0),

@@ -253,7 +253,6 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         try {
             viewer.step(state.timePasses ? &clock : nullptr);
         } catch (const std::exception& error) {
-            if (shown == 0) throw;
             message = error.what();
             goBack(viewer, before);
         }

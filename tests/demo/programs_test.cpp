@@ -221,6 +221,52 @@ TEST(ShadowDemo, RunsInAWindow) {
     ::unsetenv("XDG_STATE_HOME");
 }
 
+/// Starts the window for two frames; exit code, and what it said.
+std::pair<int, std::string> startedInWindow(const std::filesystem::path& log,
+                                            const std::string& options) {
+    const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " +
+                                (tests::programFolder() / "shadow_demo").string() +
+                                " --frames 2 --width 96 --height 54 " + options + " > " +
+                                log.string() + " 2>&1";
+    const int status = std::system(command.c_str());
+    return {status, records::readWholeFile(log)};
+}
+
+// Nobody asked for it, and without the window it cannot be changed.
+TEST(ShadowDemo, BeginsAnewWhereTheKeptStateCannotBeShown) {
+    const tests::TemporaryFolder folder;
+    ::setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
+    const auto log = folder.path() / "log", own = folder.path() / "stairwell/shadow_demo.json";
+    ASSERT_EQ(startedInWindow(log, "").first, 0);
+    const auto good = nlohmann::json::parse(std::ifstream(own));
+    const std::string noSlope = (folder.path() / "no slope.json").string();
+    std::ofstream(noSlope) << "{\"c\": 3}";
+    const std::vector<nlohmann::json> changes = {{{"resolution", 1000000}},
+                                                 {{"slope", folder.path().string()}},
+                                                 {{"slope", noSlope}},
+                                                 {{"slope", "/no/such/slope.json"}},
+                                                 {{"view", "difference"}, {"compare_with", 20000}},
+                                                 {{"view", "split"}, {"compare_with", 1000000}},
+                                                 {{"scene", "/no/such/model.obj"}}};
+    for (const nlohmann::json& change : changes) {
+        nlohmann::json state = good;
+        state.update(change);
+        std::ofstream(own) << state;
+        const auto [status, said] = startedInWindow(log, "");
+        EXPECT_EQ(status, 0) << change << said;
+        EXPECT_THAT(said, HasSubstr("note: ")) << change;
+        EXPECT_THAT(said, HasSubstr("beginning anew")) << change;
+        EXPECT_EQ(nlohmann::json::parse(std::ifstream(own)), good) << change;
+        // A file that was named stays an error.
+        const auto named = folder.path() / "named.json";
+        std::ofstream(named) << state;
+        const auto [refused, sentence] = startedInWindow(log, "--state " + named.string());
+        EXPECT_NE(refused, 0) << change << sentence;
+        EXPECT_EQ(nlohmann::json::parse(std::ifstream(named)), state) << change;
+    }
+    ::unsetenv("XDG_STATE_HOME");
+}
+
 TEST(ShadowBench, WritesOneReportWithItsTable) {
     const tests::TemporaryFolder folder;
     const std::filesystem::path out = folder.path() / "made" / "here";
