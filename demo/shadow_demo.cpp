@@ -406,10 +406,9 @@ int main(int argc, char** argv) {
     Options options;
     options.command.assign(argv, argv + argc);
     app.add_option("--scene", options.scene,
-                   "built-in scene (see --list-scenes), "
-                   "NAME:triangles=COUNT:cascades=COUNT:lamps=COUNT for one with more triangles, "
-                   "several maps of the sun and more lamps, or a model file (glTF, OBJ, PLY, ...); "
-                   "default: yard");
+                   "built-in scene (see --list-scenes) or model file (glTF, OBJ, PLY, ...); "
+                   "SCENE:triangles=COUNT:cascades=COUNT:lamps=COUNT for one with more triangles, "
+                   "several maps of the sun and more lamps; default: yard");
     app.add_option("--technique", options.technique,
                    "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,

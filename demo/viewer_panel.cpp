@@ -48,15 +48,13 @@ void drawTechnique(ViewerState& state) {
         state.cameraYawDeg = state.cameraPitchDeg = state.cameraDistanceM = {};
         state.sunAzimuthDeg = state.sunElevationDeg = {};
     }
-    if (!renderer::isModelFile(state.scene)) {
-        const auto option = [&](const char* label, const char* name, int least, int most) {
-            int value = sceneOption(state.scene, name, least);
-            if (ImGui::SliderInt(label, &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp))
-                state.scene = withSceneOption(state.scene, name, value, least);
-        };
-        option("maps of the sun", "cascades", 1, renderer::kMostCascades);
-        option("more lamps", "lamps", 0, kMostSliderLamps);
-    }
+    const auto option = [&](const char* label, const char* name, int least, int most) {
+        int value = sceneOption(state.scene, name, least);
+        if (ImGui::SliderInt(label, &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp))
+            state.scene = withSceneOption(state.scene, name, value, least);
+    };
+    option("maps of the sun", "cascades", 1, renderer::kMostCascades);
+    option("more lamps", "lamps", 0, kMostSliderLamps);
     chooseName("Technique", renderer::techniques(), state.technique,
                [](const auto& row) { return row.title; });
     const renderer::Technique& technique = renderer::findTechnique(state.technique);

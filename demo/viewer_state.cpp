@@ -255,8 +255,17 @@ renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own,
     return state.path == Path::sun ? along(path, sun, state.pathPlace) : sun;
 }
 
+namespace {
+
+/// Where an option stands behind the scene's name.
+std::size_t placeOf(const std::string& option, const std::string& source) {
+    return source.find(":" + option + "=", renderer::withoutOptions(source).size());
+}
+
+}  // namespace
+
 int sceneOption(const std::string& source, const std::string& option, int standard) {
-    const std::size_t at = source.find(":" + option + "=");
+    const std::size_t at = placeOf(option, source);
     if (at == std::string::npos) return standard;
     int value = standard;
     const char* number = source.data() + at + option.size() + 2;
@@ -267,7 +276,7 @@ int sceneOption(const std::string& source, const std::string& option, int standa
 std::string withSceneOption(const std::string& source, const std::string& option, int value,
                             int standard) {
     std::string changed = source;
-    if (const std::size_t at = source.find(":" + option + "="); at != std::string::npos)
+    if (const std::size_t at = placeOf(option, source); at != std::string::npos)
         changed.erase(at, source.find(':', at + 1) - at);
     return value == standard ? changed : changed + ":" + option + "=" + std::to_string(value);
 }

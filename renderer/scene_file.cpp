@@ -297,8 +297,30 @@ bool isModelFile(std::string_view source) {
     return !builtIn && source.find_first_of("./") != std::string_view::npos;
 }
 
+std::string_view withoutOptions(std::string_view source) {
+    if (!isModelFile(source)) return source.substr(0, source.find(':'));
+    std::error_code unreadable;
+    for (std::size_t end = source.size(); end != std::string_view::npos && end > 0;
+         end = source.rfind(':', end - 1)) {
+        const std::string_view file = source.substr(0, end);
+        if (std::filesystem::is_regular_file(file, unreadable)) return file;
+    }
+    std::string_view file = source;
+    for (std::size_t colon = file.rfind(':');
+         colon != std::string_view::npos && file.find('=', colon) != std::string_view::npos &&
+         file.find('/', colon) == std::string_view::npos;
+         colon = file.rfind(':'))
+        file = file.substr(0, colon);
+    return file;
+}
+
 Scene openScene(std::string_view source) {
-    return isModelFile(source) ? loadScene(std::filesystem::path(source)) : makeScene(source);
+    if (!isModelFile(source)) return makeScene(source);
+    const std::string_view file = withoutOptions(source);
+    Scene scene = loadScene(file);
+    scene.source = source;
+    applyOptions(scene, source.substr(file.size()));
+    return scene;
 }
 
 }  // namespace renderer

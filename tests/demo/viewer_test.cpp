@@ -128,6 +128,23 @@ TEST(Viewer, BeginsWithTheSlopeThatAStateFileNames) {
     EXPECT_NEAR(viewer.slope().slope.c, 3.22, 0.005);
 }
 
+// As the panel's sliders ask for it.
+TEST(Viewer, ShowsAModelWithSeveralMaps) {
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "wedge.obj").string();
+    std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 2 3 4\n";
+    ViewerState state = smallState(View::picture);
+    state.scene = file;
+    demo::Viewer viewer(gl(), state, 32, 18);
+    viewer.step();
+    EXPECT_EQ(viewer.run().maps().size(), 1U);
+    state.scene = demo::withSceneOption(state.scene, "cascades", 2, 1);
+    state.scene = demo::withSceneOption(state.scene, "lamps", 1, 0);
+    viewer.show(state);
+    viewer.step();
+    EXPECT_EQ(viewer.run().maps().size(), 3U);
+}
+
 TEST(Viewer, ShowsThePenumbraeOfTheMapThatIsAskedFor) {
     ViewerState state = smallState(View::penumbra);
     state.scene = "lamps";
@@ -320,6 +337,14 @@ TEST(ViewerState, ChangesOneOptionOfAScene) {
     EXPECT_EQ(sceneOption("yard:cascades=4:lamps=2", "lamps", 0), 2);
     EXPECT_EQ(sceneOption("yard:cascades=", "cascades", 1), 1);
     EXPECT_EQ(sceneOption("lamps", "lamps", 0), 0);
+    EXPECT_EQ(withSceneOption("a/b.obj:lamps=2", "cascades", 3, 1), "a/b.obj:lamps=2:cascades=3");
+    EXPECT_EQ(sceneOption("a/b.obj:lamps=2", "lamps", 0), 2);
+    // A file of that name.
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "b:cascades=2.obj").string();
+    std::ofstream(file) << "v";
+    EXPECT_EQ(sceneOption(file, "cascades", 1), 1);
+    EXPECT_EQ(withSceneOption(file + ":cascades=5", "cascades", 3, 1), file + ":cascades=3");
 }
 
 TEST(ViewerKeys, ChangeWhatTheySay) {

@@ -8,12 +8,14 @@
 #include <fstream>
 
 #include "tests/temporary_folder.h"
+#include "tests/thrown_message.h"
 
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
+using tests::messageOf;
 
 /// A wedge of the given size far from the origin, as OBJ: a quad, two triangles, one without
 /// normals.
@@ -187,6 +189,36 @@ TEST_F(SceneFile, TheGroundLiesBelowTheModel) {
         EXPECT_LT(vertex.position.y, -1e-3F);
         EXPECT_GT(vertex.position.y, -1e-2F);
     }
+}
+
+TEST_F(SceneFile, TakesTheOptionsOfAScene) {
+    const std::string file = written("x.obj", kObj).string();
+    const renderer::Scene scene = renderer::openScene(file + ":cascades=3:lamps=2");
+    EXPECT_EQ(scene.cascades, 3);
+    EXPECT_EQ(scene.lamps.size(), 2U);
+    EXPECT_EQ(scene.source, file + ":cascades=3:lamps=2");
+    EXPECT_EQ(scene.name, "x_3_cascades_2_lamps") << "fit for a file's name";
+    EXPECT_EQ(casterTriangles(renderer::openScene(file + ":triangles=16")), 16U);
+    const std::pair<std::string, std::string> bad[] = {
+        {file + ":cascade=2", "option \"cascade=2\" is not known; known are "},
+        {file + ":cascades", "option \"cascades\" is not known; known are "},
+        {file + ":lamps=2:", "option \"\" is not known"},
+        {file + ":cascades=9", "cascades is \"9\", must be a whole number from 1 to 8"},
+        {file + ":lamps=64", "lamps is \"64\", must be a whole number from 1 to 63"}};
+    for (const auto& [source, fault] : bad)
+        EXPECT_THAT(messageOf<std::invalid_argument>([&] { renderer::openScene(source); }),
+                    StartsWith("scene \"" + source + "\": " + fault));
+    for (const std::string missing : {"/no/such.obj", "/no/such:one.obj"})
+        EXPECT_EQ(messageOf([&] { renderer::openScene(missing + ":cascades=2:lamps=1"); }),
+                  missing + ": no such model file");
+}
+
+TEST_F(SceneFile, AFileWhoseNameHoldsWhatLooksLikeAnOptionIsThatFile) {
+    const std::string file = written("y.obj:cascades=2.obj", kObj).string();
+    EXPECT_EQ(renderer::openScene(file).cascades, 1);
+    EXPECT_EQ(renderer::openScene(file + ":cascades=4").cascades, 4);
+    EXPECT_EQ(renderer::withoutOptions(file + ":cascades=4"), file);
+    EXPECT_EQ(renderer::withoutOptions("yard:cascades=4"), "yard");
 }
 
 TEST_F(SceneFile, AScenesNameGoesBeforeAFile) {
