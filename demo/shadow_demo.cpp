@@ -49,23 +49,6 @@ bool inWindow(const Options& options) {
     return !options.headless && !options.writeFrames;
 }
 
-std::string valueText(const renderer::TechniqueParameter& parameter, float value) {
-    if (parameter.zeroIsAuto && value == 0) return "auto";
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
-    return text;
-}
-
-std::string rangeText(const renderer::TechniqueParameter& parameter) {
-    if (parameter.whole && parameter.low == 0 && parameter.high == 1) return "0 or 1";
-    renderer::TechniqueParameter numbers = parameter;
-    numbers.zeroIsAuto = false;
-    const std::string range = valueText(numbers, parameter.zeroIsAuto ? 1 : parameter.low) +
-                              " to " + valueText(numbers, parameter.high) +
-                              (parameter.whole ? " in whole numbers" : "");
-    return parameter.zeroIsAuto ? "auto or " + range : range;
-}
-
 void listTechniques() {
     for (const renderer::Technique& technique : renderer::techniques()) {
         std::printf("%s\t%s; %s; map %s, prefilter %s; %s\n", std::string(technique.name).c_str(),
@@ -266,6 +249,11 @@ void replayTrace(const std::filesystem::path& file) {
 void writeSequence(const Options& options, demo::Viewer& viewer) {
     const int frames = options.frames.value_or(kHeadlessFrames);
     records::createFolders(*options.sequence);
+    if (viewer.state().path == demo::Path::still && frames > 1)
+        std::fprintf(stderr,
+                     "shadow_demo: note: --path is still, so all %d pictures are the same; camera "
+                     "or sun goes round\n",
+                     frames);
     for (int i = 0; i < frames; ++i) {
         demo::ViewerState state = viewer.state();
         state.pathPlace = static_cast<double>(i) / frames;
@@ -314,25 +302,20 @@ void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
         options.writeFrames->string().c_str());
 }
 
-void demonstrate(const Options& options) {
-    if (options.listTechniques) return listTechniques();
-    if (options.listScenes) return listScenes();
-    if (options.replay) return replayTrace(*options.replay);
-    if (options.frames && *options.frames < 1)
-        throw std::invalid_argument("--frames is " + std::to_string(*options.frames) +
-                                    ", must be at least 1");
-    if (options.samples < 1 || options.samples > 8)
-        throw std::invalid_argument("--samples is " + std::to_string(options.samples) +
-                                    ", must be 1 to 8");
-    if (options.sequence && !options.headless)
-        throw std::invalid_argument("--sequence needs --headless");
-    if (options.windowPicture && (options.headless || !options.frames))
-        throw std::invalid_argument("--window-picture needs a window and --frames");
-    if (options.edge < 16 || options.edge > 4096)
-        throw std::invalid_argument("--edge is " + std::to_string(options.edge) +
-                                    ", must be 16 to 4096");
-    const std::optional<demo::ViewerState> kept = keptState(options);
-    const demo::ViewerState state = stateOf(options, kept);
+/// Where the scene is what cannot be shown, and a state file has named it. A read more: of a
+/// failure.
+void blameStateFile(const Options& options, const demo::ViewerState& state) {
+    if (!options.state || options.scene || !std::filesystem::exists(*options.state)) return;
+    try {
+        renderer::openScene(state.scene);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(options.state->string() + ": field scene: " + error.what());
+    }
+}
+
+/// In a window, without one, or as a study's frames.
+void show(const Options& options, const std::optional<demo::ViewerState>& kept,
+          const demo::ViewerState& state) {
     if (options.writeFrames) return writeStudyFrames(options, state);
 
     const renderer::ShaderLibrary shaders =
@@ -392,6 +375,33 @@ void demonstrate(const Options& options) {
         } catch (const std::runtime_error& error) {
             std::fprintf(stderr, "shadow_demo: note: the state is not kept: %s\n", error.what());
         }
+    }
+}
+
+void demonstrate(const Options& options) {
+    if (options.listTechniques) return listTechniques();
+    if (options.listScenes) return listScenes();
+    if (options.replay) return replayTrace(*options.replay);
+    if (options.frames && *options.frames < 1)
+        throw std::invalid_argument("--frames is " + std::to_string(*options.frames) +
+                                    ", must be at least 1");
+    if (options.samples < 1 || options.samples > 8)
+        throw std::invalid_argument("--samples is " + std::to_string(options.samples) +
+                                    ", must be 1 to 8");
+    if (options.sequence && !options.headless)
+        throw std::invalid_argument("--sequence needs --headless");
+    if (options.windowPicture && (options.headless || !options.frames))
+        throw std::invalid_argument("--window-picture needs a window and --frames");
+    if (options.edge < 16 || options.edge > 4096)
+        throw std::invalid_argument("--edge is " + std::to_string(options.edge) +
+                                    ", must be 16 to 4096");
+    const std::optional<demo::ViewerState> kept = keptState(options);
+    const demo::ViewerState state = stateOf(options, kept);
+    try {
+        show(options, kept, state);
+    } catch (const std::exception&) {
+        blameStateFile(options, state);
+        throw;
     }
 }
 

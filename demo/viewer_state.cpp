@@ -53,10 +53,12 @@ auto next(const Table& table, const auto& isCurrent) {
     return found == table.end() || found + 1 == table.end() ? table.begin() : found + 1;
 }
 
-std::string outside(const char* field, double value, double low, double high) {
+/// `close` is ")" where the upper end is not allowed.
+std::string outside(const char* field, double value, double low, double high,
+                    const char* close = "]") {
     char sentence[160];
-    std::snprintf(sentence, sizeof sentence, "%s: %g: must be in [%g, %g]", field, value, low,
-                  high);
+    std::snprintf(sentence, sizeof sentence, "%s: %g: must be in [%g, %g%s", field, value, low,
+                  high, close);
     return sentence;
 }
 
@@ -123,9 +125,9 @@ std::string validate(const ViewerState& state) {
     if (!(state.splitAt >= 0 && state.splitAt <= 1))
         return outside("split_at", static_cast<double>(state.splitAt), 0, 1);
     if (!(state.pathPlace >= 0 && state.pathPlace < 1))
-        return outside("path_place", state.pathPlace, 0, 1);
+        return outside("path_place", state.pathPlace, 0, 1, ")");
     if (!(state.audience.detection >= 0 && state.audience.detection < 1))
-        return outside("detection", state.audience.detection, 0, 1);
+        return outside("detection", state.audience.detection, 0, 1, ")");
     if (!(state.audience.people >= 0.01 && state.audience.people <= 0.99))
         return outside("people", state.audience.people, 0.01, 0.99);
     if (!(state.percentile >= kLeastPercentile && state.percentile <= 1))

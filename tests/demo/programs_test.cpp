@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,8 +24,11 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 std::vector<std::string> smallFrame(std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"--headless", "--width",  "64", "--height",
-                                          "36",         "--frames", "1"};
+    std::vector<std::string> arguments = {"--headless", "--width", "64", "--height", "36"};
+    if (std::ranges::find(more, "--frames") == more.end()) {
+        more.emplace_back("--frames");
+        more.emplace_back("1");
+    }
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -153,6 +157,47 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
     const auto zero = tests::runProgram("shadow_demo", {"--headless", "--width", "0"});
     EXPECT_EQ(zero.exitCode, 1);
     EXPECT_THAT(zero.err, HasSubstr("viewport is 0 x 720"));
+}
+
+TEST(ShadowDemo, NamesTheStateFileWhoseSceneCannotBeShown) {
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "state.json").string();
+    ASSERT_EQ(tests::runProgram("shadow_demo", smallFrame({"--state", file})).exitCode, 0);
+    auto state = nlohmann::json::parse(std::ifstream(file));
+    for (const auto& [scene, sentence] : std::vector<std::pair<std::string, std::string>>{
+             {"/no/such.obj", "/no/such.obj: no such model file"},
+             {"yard:cascades=99", "scene \"yard:cascades=99\": cascades is \"99\""}}) {
+        state["scene"] = scene;
+        std::ofstream(file) << state;
+        const auto result = tests::runProgram("shadow_demo", smallFrame({"--state", file}));
+        EXPECT_EQ(result.exitCode, 1);
+        EXPECT_THAT(result.err, StartsWith("shadow_demo: " + file + ": field scene: " + sentence));
+        // Not where the command line names the scene.
+        const auto other =
+            tests::runProgram("shadow_demo", smallFrame({"--state", file, "--scene", scene}));
+        EXPECT_THAT(other.err, StartsWith("shadow_demo: " + sentence));
+    }
+}
+
+TEST(ShadowDemo, SaysThatAStillSequenceIsOnePicture) {
+    const tests::TemporaryFolder folder;
+    const std::string out = (folder.path() / "sequence").string();
+    const auto sequence = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--sequence", out});
+        return tests::runProgram("shadow_demo", smallFrame(more)).err;
+    };
+    EXPECT_EQ(sequence({}), "") << "a single picture";
+    EXPECT_THAT(sequence({"--frames", "2"}), HasSubstr("note: --path is still"));
+    EXPECT_EQ(sequence({"--frames", "2", "--path", "sun"}), "");
+}
+
+TEST(ShadowDemo, NamesARangeAsItsListDoes) {
+    const auto refused = tests::runProgram(
+        "shadow_demo", smallFrame({"--technique", "lvsm", "--parameter", "layers=17"}));
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_THAT(refused.err, HasSubstr("layers of technique lvsm is 17, must be auto or 1 to 16"));
+    EXPECT_THAT(tests::runProgram("shadow_demo", {"--list-techniques"}).out,
+                HasSubstr("auto or 1 to 16"));
 }
 
 TEST(ShadowDemo, StopsAtTheStartWhereAShaderOfTheFolderDoesNotCompile) {

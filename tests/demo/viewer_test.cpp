@@ -8,6 +8,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "demo/viewer_message.h"
+#include "demo/viewer_panel.h"
 #include "tests/headless_gl.h"
 #include "tests/project_folders.h"
 #include "tests/temporary_folder.h"
@@ -322,6 +324,10 @@ TEST(ViewerState, NamesFieldValueAndRuleOfABadFile) {
                 HasSubstr("budget_texels"));
     EXPECT_THAT(readWith("\"parameters\": {}", "\"parameters\": {\"hart\": {}}"),
                 HasSubstr("hart"));
+    EXPECT_THAT(readWith("\"path_place\": 0.0", "\"path_place\": 1"),
+                HasSubstr("path_place: 1: must be in [0, 1)"));
+    EXPECT_THAT(readWith("\"detection\": 0.0", "\"detection\": 1"),
+                HasSubstr("detection: 1: must be in [0, 1)"));
     EXPECT_THAT(readWith("state 1.0", "state 2.0"), HasSubstr("schema"));
     EXPECT_THAT(readWith("\"panel\"", "\"pannel\""), HasSubstr("panel"));
 }
@@ -345,6 +351,30 @@ TEST(ViewerState, ChangesOneOptionOfAScene) {
     std::ofstream(file) << "v";
     EXPECT_EQ(sceneOption(file, "cascades", 1), 1);
     EXPECT_EQ(withSceneOption(file + ":cascades=5", "cascades", 3, 1), file + ":cascades=3");
+}
+
+TEST(ViewerMessage, StaysAsLongAsItTakesToReadItAfterItWasSaidLast) {
+    demo::ViewerMessage message;
+    EXPECT_EQ(message.text(), "");
+    message.say("saved as picture.png");
+    message.pass(3);
+    message.say("saved as picture.png");
+    message.pass(3);
+    EXPECT_EQ(message.text(), "saved as picture.png");
+    message.pass(3);
+    EXPECT_EQ(message.text(), "");
+    message.say(std::string(400, 'x'));
+    message.pass(20);
+    EXPECT_NE(message.text(), "") << "a long one longer";
+    message.pass(20);
+    EXPECT_EQ(message.text(), "");
+}
+
+TEST(ViewerPanel, StaysInsideTheWindow) {
+    EXPECT_EQ(demo::keptInside(16, 400, 1280), 16);
+    EXPECT_EQ(demo::keptInside(-300, 400, 1280), 0) << "after a tiny window";
+    EXPECT_EQ(demo::keptInside(1100, 400, 1280), 880);
+    EXPECT_EQ(demo::keptInside(16, 400, 96), 0) << "its beginning at least";
 }
 
 TEST(ViewerKeys, ChangeWhatTheySay) {
