@@ -563,6 +563,8 @@ TEST(ShadowRun, JoinsControllerAndRendererInTheLinesThatEnginesAreShown) {
     for (std::string line; std::getline(lines, line, ';'); ++count)
         EXPECT_THAT(code, HasSubstr(line + ";"));
     EXPECT_EQ(count, 5);
+    EXPECT_THAT(withoutSpace("README.md"),
+                HasSubstr(manual.substr(begin + open.size(), end - begin - open.size())));
 }
 
 TEST(LoadedSlope, IsThePublishedOneForTheAudienceAskedFor) {
