@@ -17,6 +17,7 @@
 #include "program/run_program.h"
 #include "records/slope_file.h"
 #include "records/whole_file.h"
+#include "renderer/scene_file.h"
 
 namespace {
 
@@ -56,7 +57,7 @@ demo::SweepSettings sweepSettings(const Options& options) {
             if (renderer::makeScene(entry.name).lamps.empty())
                 settings.scenes.emplace_back(entry.name);
     for (const std::string& name : settings.scenes)
-        if (!std::filesystem::exists(name)) renderer::findScene(name);
+        if (!std::filesystem::exists(renderer::withoutOptions(name))) renderer::findScene(name);
     settings.softness = options.softness;
     settings.techniques = demo::parseSweptTechniques(
         options.techniques.empty() ? kSweptTechniques : options.techniques);

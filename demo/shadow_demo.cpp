@@ -49,23 +49,6 @@ bool inWindow(const Options& options) {
     return !options.headless && !options.writeFrames;
 }
 
-std::string valueText(const renderer::TechniqueParameter& parameter, float value) {
-    if (parameter.zeroIsAuto && value == 0) return "auto";
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
-    return text;
-}
-
-std::string rangeText(const renderer::TechniqueParameter& parameter) {
-    if (parameter.whole && parameter.low == 0 && parameter.high == 1) return "0 or 1";
-    renderer::TechniqueParameter numbers = parameter;
-    numbers.zeroIsAuto = false;
-    const std::string range = valueText(numbers, parameter.zeroIsAuto ? 1 : parameter.low) +
-                              " to " + valueText(numbers, parameter.high) +
-                              (parameter.whole ? " in whole numbers" : "");
-    return parameter.zeroIsAuto ? "auto or " + range : range;
-}
-
 void listTechniques() {
     for (const renderer::Technique& technique : renderer::techniques()) {
         std::printf("%s\t%s; %s; map %s, prefilter %s; %s\n", std::string(technique.name).c_str(),
@@ -138,19 +121,25 @@ std::optional<std::filesystem::path> ownStateFile() {
 /// That of the window's last time, which nobody asked for; absent where it is of no use.
 std::optional<demo::ViewerState> keptState(const Options& options) {
     const auto own = ownStateFile();
-    if (!inWindow(options) || options.state || !own || !std::filesystem::exists(*own))
+    std::error_code unreadable;
+    if (!inWindow(options) || options.state || !own || !std::filesystem::exists(*own, unreadable))
         return std::nullopt;
     try {
         demo::ViewerState state = demo::readViewerState(*own);
-        if (state.slopeFile && !options.slope.file && !std::filesystem::exists(*state.slopeFile)) {
-            std::fprintf(stderr,
-                         "shadow_demo: note: %s, the slope of the last time, is not there; "
-                         "the published one is in use\n",
-                         state.slopeFile->c_str());
-            state.slopeFile.reset();
+        if (options.slope.file) state.slopeFile.reset();
+        if (state.slopeFile) {
+            try {
+                demo::loadSlope(state.slopeFile);
+            } catch (const std::exception& error) {
+                std::fprintf(stderr,
+                             "shadow_demo: note: the slope of the last time cannot be used: %s; "
+                             "beginning anew with the published one\n",
+                             error.what());
+                state.slopeFile.reset();
+            }
         }
         return state;
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
         std::fprintf(stderr, "shadow_demo: note: %s; beginning anew\n", error.what());
         return std::nullopt;
     }
@@ -260,6 +249,11 @@ void replayTrace(const std::filesystem::path& file) {
 void writeSequence(const Options& options, demo::Viewer& viewer) {
     const int frames = options.frames.value_or(kHeadlessFrames);
     records::createFolders(*options.sequence);
+    if (viewer.state().path == demo::Path::still && frames > 1)
+        std::fprintf(stderr,
+                     "shadow_demo: note: --path is still, so all %d pictures are the same; camera "
+                     "or sun goes round\n",
+                     frames);
     for (int i = 0; i < frames; ++i) {
         demo::ViewerState state = viewer.state();
         state.pathPlace = static_cast<double>(i) / frames;
@@ -272,9 +266,15 @@ void writeSequence(const Options& options, demo::Viewer& viewer) {
     std::printf("%d pictures in %s\n", frames, options.sequence->string().c_str());
 }
 
-void tellNotes(const renderer::Scene& scene) {
-    for (const std::string& note : scene.notes)
+void tellNotes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes)
         std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
+}
+
+void tellNotes(const demo::Viewer& viewer) {
+    // Of the published default the stats say as much.
+    if (viewer.state().slopeFile) tellNotes(viewer.slope().notes);
+    tellNotes(viewer.frame().scene().notes);
 }
 
 /// Pairs of frames for a design of the study.
@@ -282,7 +282,7 @@ void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
     const renderer::HeadlessContext context;
     renderer::Renderer frame(context.info(), renderer::openScene(state.scene), options.edge,
                              options.edge);
-    tellNotes(frame.scene());
+    tellNotes(frame.scene().notes);
     const demo::FramePlan plan{
         .technique = &renderer::findTechnique(state.technique),
         .parameters = parametersOf(state),
@@ -302,29 +302,21 @@ void writeStudyFrames(const Options& options, const demo::ViewerState& state) {
         options.writeFrames->string().c_str());
 }
 
-void demonstrate(const Options& options) {
-    if (options.listTechniques) return listTechniques();
-    if (options.listScenes) return listScenes();
-    if (options.replay) return replayTrace(*options.replay);
-    if (options.frames && *options.frames < 1)
-        throw std::invalid_argument("--frames is " + std::to_string(*options.frames) +
-                                    ", must be at least 1");
-    if (options.samples < 1 || options.samples > 8)
-        throw std::invalid_argument("--samples is " + std::to_string(options.samples) +
-                                    ", must be 1 to 8");
-    if (options.sequence && !options.headless)
-        throw std::invalid_argument("--sequence needs --headless");
-    if (options.windowPicture && (options.headless || !options.frames))
-        throw std::invalid_argument("--window-picture needs a window and --frames");
-    if (options.edge < 16 || options.edge > 4096)
-        throw std::invalid_argument("--edge is " + std::to_string(options.edge) +
-                                    ", must be 16 to 4096");
-    const std::optional<demo::ViewerState> kept = keptState(options);
-    const demo::ViewerState state = stateOf(options, kept);
+/// Where the scene is what cannot be shown, and a state file has named it. A read more: of a
+/// failure.
+void blameStateFile(const Options& options, const demo::ViewerState& state) {
+    if (!options.state || options.scene || !std::filesystem::exists(*options.state)) return;
+    try {
+        renderer::openScene(state.scene);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(options.state->string() + ": field scene: " + error.what());
+    }
+}
+
+/// In a window, without one, or as a study's frames.
+void show(const Options& options, const std::optional<demo::ViewerState>& kept,
+          const demo::ViewerState& state) {
     if (options.writeFrames) return writeStudyFrames(options, state);
-    if (state.slopeFile)  // of the published default the stats say as much
-        for (const std::string& note : demo::loadSlope(state.slopeFile, state.audience).notes)
-            std::fprintf(stderr, "shadow_demo: note: %s\n", note.c_str());
 
     const renderer::ShaderLibrary shaders =
         options.shaders ? renderer::ShaderLibrary::fromFolder(*options.shaders)
@@ -332,7 +324,7 @@ void demonstrate(const Options& options) {
     if (options.headless) {
         const renderer::HeadlessContext context;
         demo::Viewer viewer(context.info(), state, options.width, options.height, shaders);
-        tellNotes(viewer.frame().scene());
+        tellNotes(viewer);
         if (options.trace) viewer.run().startTrace(kTraceBytes);
         const int settlingFrames = viewer.settle();
         if (options.sequence)
@@ -346,8 +338,10 @@ void demonstrate(const Options& options) {
     renderer::Window window("shadow_demo", options.width, options.height);
     std::unique_ptr<demo::Viewer> opened;
     const auto open = [&](const demo::ViewerState& shown) {
+        opened.reset();
         opened = std::make_unique<demo::Viewer>(window.info(), shown, options.width, options.height,
                                                 shaders);
+        opened->step();  // what the driver refuses comes out here
     };
     try {
         open(state);
@@ -360,7 +354,7 @@ void demonstrate(const Options& options) {
         open(stateOf(options, std::nullopt));
     }
     demo::Viewer& viewer = *opened;
-    tellNotes(viewer.frame().scene());
+    tellNotes(viewer);
     if (options.trace) viewer.run().startTrace(kTraceBytes);
     showViewer(window, viewer,
                {.frames = options.frames.value_or(0),
@@ -384,6 +378,33 @@ void demonstrate(const Options& options) {
     }
 }
 
+void demonstrate(const Options& options) {
+    if (options.listTechniques) return listTechniques();
+    if (options.listScenes) return listScenes();
+    if (options.replay) return replayTrace(*options.replay);
+    if (options.frames && *options.frames < 1)
+        throw std::invalid_argument("--frames is " + std::to_string(*options.frames) +
+                                    ", must be at least 1");
+    if (options.samples < 1 || options.samples > 8)
+        throw std::invalid_argument("--samples is " + std::to_string(options.samples) +
+                                    ", must be 1 to 8");
+    if (options.sequence && !options.headless)
+        throw std::invalid_argument("--sequence needs --headless");
+    if (options.windowPicture && (options.headless || !options.frames))
+        throw std::invalid_argument("--window-picture needs a window and --frames");
+    if (options.edge < 16 || options.edge > 4096)
+        throw std::invalid_argument("--edge is " + std::to_string(options.edge) +
+                                    ", must be 16 to 4096");
+    const std::optional<demo::ViewerState> kept = keptState(options);
+    const demo::ViewerState state = stateOf(options, kept);
+    try {
+        show(options, kept, state);
+    } catch (const std::exception&) {
+        blameStateFile(options, state);
+        throw;
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -395,10 +416,9 @@ int main(int argc, char** argv) {
     Options options;
     options.command.assign(argv, argv + argc);
     app.add_option("--scene", options.scene,
-                   "built-in scene (see --list-scenes), "
-                   "NAME:triangles=COUNT:cascades=COUNT:lamps=COUNT for one with more triangles, "
-                   "several maps of the sun and more lamps, or a model file (glTF, OBJ, PLY, ...); "
-                   "default: yard");
+                   "built-in scene (see --list-scenes) or model file (glTF, OBJ, PLY, ...); "
+                   "SCENE:triangles=COUNT:cascades=COUNT:lamps=COUNT for one with more triangles, "
+                   "several maps of the sun and more lamps; default: yard");
     app.add_option("--technique", options.technique,
                    "shadow technique (see --list-techniques); default: pcf_disc");
     app.add_option("--parameter", options.parameters,

@@ -29,15 +29,19 @@ constexpr int kMostSettlingFrames = 64;
 // Frames from one tile of the detail probe to the next, of one map: a tile costs about 4 % of a
 // frame that has one.
 constexpr std::size_t kFramesPerTile = 10;
-// What one of several maps is kept at while no penumbra of it is in view, so that the texels are
-// there for the others. A shadow that comes into view must show on it to ask for more: what is too
-// wide for the detail probe covers half a texel or more.
+// What one of several maps is kept at without a budget while no penumbra of it is in view. A shadow
+// that comes into view must show on it to ask for more: what is too wide for the detail probe
+// covers half a texel or more.
 constexpr int kUnseenTexels = 256;
-// A level is taken by what needs less than 80 % of it (lowerBelowPercent), and more than the next
-// lower one has.
-constexpr double kUnseenNeed = 0.78 * kUnseenTexels;
 static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
               renderer::DetailProbe::kFineEdge);
+
+/// What a map asks for of which nothing is in view. Under a budget the texels are for the others,
+/// so it is the smallest size. A level is taken by what needs less than 80 % of it
+/// (lowerBelowPercent), and more than the next lower one has.
+double unseenNeed(const rc::Settings& sizing, bool hasBudget) {
+    return 0.78 * (hasBudget ? std::min(kUnseenTexels, sizing.minSize) : kUnseenTexels);
+}
 
 std::string numberText(double number) {
     char text[32];
@@ -223,9 +227,11 @@ void ShadowRun::chooseTogether(View view) {
         if (!unseen[map]) {
             data[map].kind = rc::LightData::Kind::histogram;
             data[map].histogram = recent;
-        } else if (lights_->light(map).size() > kUnseenTexels) {
+        } else {
+            // In every frame, whatever its size: the budget is shared by the need last heard of.
             data[map].kind = rc::LightData::Kind::radius;
-            data[map].radiusUv = settings_.slope.c / kUnseenNeed;
+            data[map].radiusUv = settings_.slope.c / unseenNeed(controller_.settings(),
+                                                                settings_.budgetTexels.has_value());
         }
     }
     std::vector<rc::Decision> choices(maps);
@@ -251,7 +257,8 @@ void ShadowRun::chooseTogether(View view) {
                          .fadeWeight = static_cast<float>(choice.fadeWeight),
                          .fadeFrom = choice.fadeFromSize};
         ChosenResolution& chosen = chosen_.emplace_back(chosenFrom(choice, data[map].frame));
-        if (!unseen[map]) continue;
+        // Thin casters that the probe finds, and the map has lost, are in view.
+        if (!unseen[map] || chosen.detailTexels > 0) continue;
         chosen.need = 0;
         chosen.artifactRatio = chosen.shareAbove = 0;
         if (choice.reason == rc::Reason::demandMet || choice.reason == rc::Reason::heldWithoutData)

@@ -48,15 +48,13 @@ void drawTechnique(ViewerState& state) {
         state.cameraYawDeg = state.cameraPitchDeg = state.cameraDistanceM = {};
         state.sunAzimuthDeg = state.sunElevationDeg = {};
     }
-    if (!renderer::isModelFile(state.scene)) {
-        const auto option = [&](const char* label, const char* name, int least, int most) {
-            int value = sceneOption(state.scene, name, least);
-            if (ImGui::SliderInt(label, &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp))
-                state.scene = withSceneOption(state.scene, name, value, least);
-        };
-        option("maps of the sun", "cascades", 1, renderer::kMostCascades);
-        option("more lamps", "lamps", 0, kMostSliderLamps);
-    }
+    const auto option = [&](const char* label, const char* name, int least, int most) {
+        int value = sceneOption(state.scene, name, least);
+        if (ImGui::SliderInt(label, &value, least, most, "%d", ImGuiSliderFlags_AlwaysClamp))
+            state.scene = withSceneOption(state.scene, name, value, least);
+    };
+    option("maps of the sun", "cascades", 1, renderer::kMostCascades);
+    option("more lamps", "lamps", 0, kMostSliderLamps);
     chooseName("Technique", renderer::techniques(), state.technique,
                [](const auto& row) { return row.title; });
     const renderer::Technique& technique = renderer::findTechnique(state.technique);
@@ -336,8 +334,28 @@ void drawKeys() {
 
 }  // namespace
 
-PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
-                       const std::string& message, PanelTexts& texts, ViewerState& state) {
+float keptInside(float place, float length, float windowLength) {
+    return std::clamp(place, 0.0F, std::max(windowLength - length, 0.0F));
+}
+
+void drawMessage(const std::string& message) {
+    if (message.empty()) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float em = ImGui::GetFontSize(), padding = 0.5F * em;
+    const float wrap = std::max(display.x - 4 * em, 4 * em);
+    const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, wrap);
+    // Of one that is higher than the window the beginning is seen.
+    const ImVec2 corner(std::max(0.5F * (display.x - size.x), padding),
+                        std::max(display.y - size.y - em, padding));
+    ImDrawList& draw = *ImGui::GetForegroundDrawList();
+    draw.AddRectFilled({corner.x - padding, corner.y - padding},
+                       {corner.x + size.x + padding, corner.y + size.y + padding},
+                       IM_COL32(15, 15, 15, 225), 4);
+    draw.AddText(ImGui::GetFont(), em, corner, IM_COL32_WHITE, message.c_str(), nullptr, wrap);
+}
+
+PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history, PanelTexts& texts,
+                       ViewerState& state) {
     PanelRequest request;
     const float em = ImGui::GetTextLineHeight();
     ImGui::SetNextWindowPos({em, em}, ImGuiCond_FirstUseEver);
@@ -356,8 +374,10 @@ PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
         drawPlots(history, viewer.run().maps().size() > 1, state);
     if (ImGui::CollapsingHeader("Keys")) drawKeys();
     if (ImGui::Button("Save a picture")) request.screenshot = true;
-    if (!message.empty()) ImGui::TextWrapped("%s", message.c_str());
     ImGui::PopItemWidth();
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetWindowPos({keptInside(at.x, size.x, display.x), keptInside(at.y, size.y, display.y)});
     ImGui::End();
     return request;
 }

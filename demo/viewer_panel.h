@@ -39,8 +39,15 @@ struct PanelRequest {
     bool useTypedSlope = false, usePublishedSlope = false;
 };
 
-/// Changes `state` as the user does. `message`: the last thing that happened, shown at the bottom.
-PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history,
-                       const std::string& message, PanelTexts& texts, ViewerState& state);
+/// Changes `state` as the user does. The panel stays within the window.
+PanelRequest drawPanel(const Viewer& viewer, const FrameHistory& history, PanelTexts& texts,
+                       ViewerState& state);
+
+/// At the bottom of the window, over all else; nothing where it is empty.
+void drawMessage(const std::string& message);
+
+/// Where along an axis a panel stands within a window: where it would, unless it would be partly
+/// outside; at the window's beginning where it is too long for it.
+float keptInside(float place, float length, float windowLength);
 
 }  // namespace demo

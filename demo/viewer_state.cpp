@@ -53,10 +53,12 @@ auto next(const Table& table, const auto& isCurrent) {
     return found == table.end() || found + 1 == table.end() ? table.begin() : found + 1;
 }
 
-std::string outside(const char* field, double value, double low, double high) {
+/// `close` is ")" where the upper end is not allowed.
+std::string outside(const char* field, double value, double low, double high,
+                    const char* close = "]") {
     char sentence[160];
-    std::snprintf(sentence, sizeof sentence, "%s: %g: must be in [%g, %g]", field, value, low,
-                  high);
+    std::snprintf(sentence, sizeof sentence, "%s: %g: must be in [%g, %g%s", field, value, low,
+                  high, close);
     return sentence;
 }
 
@@ -123,9 +125,9 @@ std::string validate(const ViewerState& state) {
     if (!(state.splitAt >= 0 && state.splitAt <= 1))
         return outside("split_at", static_cast<double>(state.splitAt), 0, 1);
     if (!(state.pathPlace >= 0 && state.pathPlace < 1))
-        return outside("path_place", state.pathPlace, 0, 1);
+        return outside("path_place", state.pathPlace, 0, 1, ")");
     if (!(state.audience.detection >= 0 && state.audience.detection < 1))
-        return outside("detection", state.audience.detection, 0, 1);
+        return outside("detection", state.audience.detection, 0, 1, ")");
     if (!(state.audience.people >= 0.01 && state.audience.people <= 0.99))
         return outside("people", state.audience.people, 0.01, 0.99);
     if (!(state.percentile >= kLeastPercentile && state.percentile <= 1))
@@ -255,8 +257,17 @@ renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own,
     return state.path == Path::sun ? along(path, sun, state.pathPlace) : sun;
 }
 
+namespace {
+
+/// Where an option stands behind the scene's name.
+std::size_t placeOf(const std::string& option, const std::string& source) {
+    return source.find(":" + option + "=", renderer::withoutOptions(source).size());
+}
+
+}  // namespace
+
 int sceneOption(const std::string& source, const std::string& option, int standard) {
-    const std::size_t at = source.find(":" + option + "=");
+    const std::size_t at = placeOf(option, source);
     if (at == std::string::npos) return standard;
     int value = standard;
     const char* number = source.data() + at + option.size() + 2;
@@ -267,7 +278,7 @@ int sceneOption(const std::string& source, const std::string& option, int standa
 std::string withSceneOption(const std::string& source, const std::string& option, int value,
                             int standard) {
     std::string changed = source;
-    if (const std::size_t at = source.find(":" + option + "="); at != std::string::npos)
+    if (const std::size_t at = placeOf(option, source); at != std::string::npos)
         changed.erase(at, source.find(':', at + 1) - at);
     return value == standard ? changed : changed + ":" + option + "=" + std::to_string(value);
 }

@@ -72,8 +72,8 @@ renderer::Sun sunOf(const ViewerState& state, const renderer::Sun& own,
 /// A camera's distance, nearer or farther by a factor, within what suits the scene's own camera.
 float zoomed(float distanceM, float factor, const renderer::OrbitCamera& own);
 
-/// What stands behind `option` in a scene's source ("yard:cascades=4"); `standard` where it is not
-/// there or no number.
+/// What stands behind `option` in a scene's source ("yard:cascades=4", "model.obj:cascades=4");
+/// `standard` where it is not there or no number.
 int sceneOption(const std::string& source, const std::string& option, int standard);
 /// The source with another value there; without the option for the standard value.
 std::string withSceneOption(const std::string& source, const std::string& option, int value,

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "demo/picture.h"
+#include "demo/viewer_message.h"
 #include "demo/viewer_panel.h"
 
 namespace demo {
@@ -214,7 +215,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
     PanelTexts texts;
     viewer.slope().file.copy(texts.slopeFile.data(), texts.slopeFile.size() - 1);
     Mouse mouse;
-    std::string message;
+    ViewerMessage message;
     double smoothMs = 0;
     auto last = std::chrono::steady_clock::now();
     for (int shown = 0; !window.closeWanted() && (options.frames == 0 || shown < options.frames);
@@ -225,7 +226,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
             if (ImGui::GetIO().WantTextInput) continue;
             if (key == '\x1b') return;
             if (key == kReloadKey)
-                message = reloadShaders(viewer, options.shaderFolder);
+                message.say(reloadShaders(viewer, options.shaderFolder));
             else
                 applyKey(key, state);
         }
@@ -234,6 +235,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last).count();
         last = now;
+        message.pass(seconds);
         if (state.path != Path::still)
             state.pathPlace = std::fmod(state.pathPlace + seconds / kSecondsAround, 1.0);
 
@@ -241,24 +243,24 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         mouse.apply(input, viewer, state);
         PanelRequest request;
         labelSides(viewer);
-        if (state.panel) request = drawPanel(viewer, history, message, texts, state);
+        if (state.panel) request = drawPanel(viewer, history, texts, state);
         const ViewerState before = viewer.state();
         try {
             viewer.show(state);
         } catch (const std::exception& error) {
-            message = error.what();  // the picture stays as it was
+            message.say(error.what());  // the picture stays as it was
         }
-        if (request.useTypedSlope) message = useSlope(viewer, texts.slopeFile.data());
-        if (request.usePublishedSlope) message = useSlope(viewer, std::nullopt);
+        if (request.useTypedSlope) message.say(useSlope(viewer, texts.slopeFile.data()));
+        if (request.usePublishedSlope) message.say(useSlope(viewer, std::nullopt));
         try {
             viewer.step(state.timePasses ? &clock : nullptr);
         } catch (const std::exception& error) {
-            if (shown == 0) throw;
-            message = error.what();
+            message.say(error.what());
             goBack(viewer, before);
         }
-        if (request.screenshot) message = savePicture(viewer, options.pictureFolder);
+        if (request.screenshot) message.say(savePicture(viewer, options.pictureFolder));
         window.copyFrom(viewer.framebuffer(), viewer.frame().widthPx(), viewer.frame().heightPx());
+        drawMessage(message.text());
         Interface::end();
         if (options.windowPicture && shown + 1 == options.frames)
             writePng(*options.windowPicture,

@@ -20,7 +20,8 @@ struct ViewerWindowOptions {
     std::optional<std::filesystem::path> shaderFolder = {};
 };
 
-/// Shows the window until it is closed or Esc is pressed.
+/// Shows the window until it is closed or Esc is pressed. A frame that is refused is a message in
+/// it; so that a window does not open on nothing, let the viewer draw one before.
 void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOptions& options);
 
 }  // namespace demo

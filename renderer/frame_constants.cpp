@@ -97,7 +97,9 @@ void Renderer::setShadowConstants(const FrameSettings& settings, std::size_t vie
     shadow.map = {static_cast<float>(resolution), 1 / static_cast<float>(resolution),
                   1 / static_cast<float>(maps_[view].edge),
                   static_cast<float>(window.lampAt ? window.depthRangeM / window.nearM : 0)};
-    shadow.kernel = {map.radiusUv, map.minRadiusUv,
+    // Without a kernel no blur hides the map's steps, so nothing may count on one.
+    const bool soft = technique.soft;
+    shadow.kernel = {soft ? map.radiusUv : 0, soft ? map.minRadiusUv : 0,
                      static_cast<float>(settings.samplesPerPixelEdge), 0};
     shadow.parameters[0] = glm::make_vec4(values.data());
     shadow.parameters[1] = glm::make_vec4(values.data() + 4);

@@ -111,6 +111,7 @@ void Renderer::resize(int widthPx, int heightPx) {
 
 std::optional<Renderer::Outputs> Renderer::outputs(std::size_t view) const {
     if (lastTechnique_ == nullptr) return std::nullopt;
+    const glm::vec4& kernel = shadows_.at(view).kernel;  // x its radius, y the least
     return Outputs{.positions = positions_.name(),
                    .planes = planes_.name(),
                    .normals = normals_.name(),
@@ -119,7 +120,7 @@ std::optional<Renderer::Outputs> Renderer::outputs(std::size_t view) const {
                    .lit = lit_.name(),
                    .depths = maps_.at(view).depths.name(),
                    .technique = lastTechnique_,
-                   .hasKernel = lastTechnique_->soft && shadows_.at(view).kernel.x > 0};
+                   .hasKernel = kernel.x > 0 || kernel.y > 0};
 }
 
 std::size_t Renderer::targetBytes() const {

@@ -138,7 +138,7 @@ class Renderer {
         GLuint positions = 0, planes = 0, normals = 0, albedos = 0, visibility = 0, lit = 0;
         GLuint depths = 0;                     ///< the shadow map, before any filter
         const Technique* technique = nullptr;  ///< never null
-        bool hasKernel = false;                ///< the technique's, of a radius above 0
+        bool hasKernel = false;                ///< of a radius above 0, or of a least one
     };
     /// Those of one of lightViews(): its map, and its light's visibility.
     std::optional<Outputs> outputs(std::size_t view = 0) const;

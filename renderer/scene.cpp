@@ -183,14 +183,10 @@ const SceneEntry& findScene(std::string_view source) {
                                 "\" is not known; known are: " + known);
 }
 
-Scene makeScene(std::string_view source) {
-    const SceneEntry& entry = findScene(source);
-    Scene scene = entry.make();
-    scene.name = entry.name;
-    scene.source = source;
-    for (std::size_t colon = source.find(':'); colon != std::string_view::npos;) {
-        const std::size_t next = source.find(':', colon + 1);
-        const std::string_view option = source.substr(colon + 1, next - colon - 1);
+void applyOptions(Scene& scene, std::string_view options) {
+    for (std::size_t colon = options.find(':'); colon != std::string_view::npos;) {
+        const std::size_t next = options.find(':', colon + 1);
+        const std::string_view option = options.substr(colon + 1, next - colon - 1);
         if (option.starts_with("triangles="))
             splitCasters(scene, option);
         else if (option.starts_with("cascades="))
@@ -204,6 +200,14 @@ Scene makeScene(std::string_view source) {
                                         "cascades=COUNT and lamps=COUNT");
         colon = next;
     }
+}
+
+Scene makeScene(std::string_view source) {
+    const SceneEntry& entry = findScene(source);
+    Scene scene = entry.make();
+    scene.name = entry.name;
+    scene.source = source;
+    applyOptions(scene, source.substr(entry.name.size()));
     return scene;
 }
 

@@ -90,7 +90,7 @@ std::vector<Lamp> ringOfSpots(std::size_t count, const Bounds& casters);
 
 struct Scene {
     std::string name;    ///< fit for a file's name
-    std::string source;  ///< what makeScene() was asked for
+    std::string source;  ///< what was asked for, with its options
     /// What a model file held that is left out, or holds wrongly, a sentence each.
     std::vector<std::string> notes;
     std::vector<SceneObject> objects;
@@ -125,11 +125,14 @@ std::span<const SceneEntry> builtInScenes();
 /// at. Throws std::invalid_argument that lists the known names.
 const SceneEntry& findScene(std::string_view source);
 
-/// A built-in scene by its name, with options after colons: NAME:triangles=COUNT is the same
-/// picture with its casters split into about as many triangles, from their own number to 4,000,000;
-/// NAME:cascades=COUNT has as many maps of the sun; NAME:lamps=COUNT has as many spots more, in a
-/// ring over the casters. Throws std::invalid_argument for an unknown name or option and a count
-/// out of range.
+/// Options of a scene, each after a colon: ":triangles=COUNT" is the same picture with its casters
+/// split into about as many triangles, from their own number to 4,000,000; ":cascades=COUNT" has as
+/// many maps of the sun; ":lamps=COUNT" has as many spots more, in a ring over the casters. Throws
+/// std::invalid_argument for an unknown option and a count out of range.
+void applyOptions(Scene& scene, std::string_view options);
+
+/// A built-in scene by its name, with options behind it. Throws std::invalid_argument for an
+/// unknown name, and what applyOptions() throws.
 Scene makeScene(std::string_view source);
 
 }  // namespace renderer

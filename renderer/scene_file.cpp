@@ -12,7 +12,10 @@
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
 #include <cctype>
+#include <charconv>
 #include <cmath>
+#include <cstring>
+#include <exception>
 #include <fstream>
 #include <new>
 #include <sstream>
@@ -141,6 +144,64 @@ class ImportNotes {
     Stream stream_;
 };
 
+/// What the header of a PLY file says of one of its elements.
+struct PlyElement {
+    std::string name;
+    double count = 0;
+    std::vector<bool> lists;  // of each property: a list, or a single value
+};
+
+/// Whether a row of an ASCII file has the values of its element and no more: Assimp takes what lies
+/// elsewhere for what is missing. It ends the program at a face without corners.
+bool isRowOf(const PlyElement& element, const std::string& row) {
+    const char* at = row.c_str();
+    const auto skipWord = [&] {
+        at += std::strspn(at, " \t\r");
+        const char* const begin = at;
+        at += std::strcspn(at, " \t\r");
+        return std::string_view(begin, static_cast<std::size_t>(at - begin));
+    };
+    for (const bool list : element.lists) {
+        const std::string_view word = skipWord();
+        if (word.empty()) return false;
+        if (!list) continue;
+        std::size_t length = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), length);
+        if (error != std::errc() || (length == 0 && element.name == "face")) return false;
+        for (std::size_t i = 0; i < length; ++i)
+            if (skipWord().empty()) return false;
+    }
+    return skipWord().empty();
+}
+
+/// The rows behind the header, a line each; how many there are, all elements having as many as
+/// announced or the file being at its end.
+double checkPlyRows(const std::filesystem::path& file, std::istream& in,
+                    const std::vector<PlyElement>& elements) {
+    double rows = 0;
+    std::string line;
+    for (const PlyElement& element : elements)
+        for (double i = 0; i < element.count; ++i) {
+            int empty = 0;
+            for (; std::getline(in, line); ++empty)
+                if (line.find_first_not_of(" \t\r") != std::string::npos) break;
+            if (!in) return rows;
+            const auto refuse = [&](const std::string& problem) {
+                std::ostringstream place;
+                place.precision(15);
+                place << element.name << " " << i << ": " << problem;
+                reject(file, place.str());
+            };
+            // Assimp skips one, and at a second takes the rows that follow for something else.
+            if (empty > 1) refuse("empty lines stand before it");
+            if (!isRowOf(element, line))
+                refuse("the line \"" + oneLine(line) +
+                       "\" does not hold the values that the header announces");
+            ++rows;
+        }
+    return rows;
+}
+
 /// Assimp's reader of PLY never returns from a header without an end, and takes what follows for
 /// complete.
 void checkPly(const std::filesystem::path& file) {
@@ -148,36 +209,35 @@ void checkPly(const std::filesystem::path& file) {
     std::string line;
     if (!std::getline(in, line) || line.substr(0, 3) != "ply") return;  // not one
     bool ascii = false;
-    double elements = 0;
+    std::vector<PlyElement> elements;
+    double announced = 0;
     while (std::getline(in, line)) {
         std::istringstream words(line);
-        std::string word, name;
+        std::string word;
         words >> word;
         if (word == "end_header") break;
         if (word == "format") {
             words >> word;
             ascii = word == "ascii";
         } else if (word == "element") {
-            double count = 0;
-            if (!(words >> name >> count) || !(count >= 0))
+            PlyElement& element = elements.emplace_back();
+            if (!(words >> element.name >> element.count) || !(element.count >= 0))
                 reject(file, "the header's line \"" + oneLine(line) + "\" has no count");
-            elements += count;
+            announced += element.count;
+        } else if (word == "property" && !elements.empty()) {
+            words >> word;
+            elements.back().lists.push_back(word == "list");
         }
     }
     if (!in) reject(file, "ends within its header: there is no line \"end_header\"");
-    // A line, or at least a byte, for each.
-    double held = 0;
-    if (ascii) {
-        while (std::getline(in, line))
-            held += line.find_first_not_of(" \t\r") < line.size() ? 1 : 0;
-    } else {
-        held =
-            static_cast<double>(std::filesystem::file_size(file)) - static_cast<double>(in.tellg());
-    }
-    if (held < elements) {
+    // In a binary file at least a byte for each.
+    const double held = ascii ? checkPlyRows(file, in, elements)
+                              : static_cast<double>(std::filesystem::file_size(file)) -
+                                    static_cast<double>(in.tellg());
+    if (held < announced) {
         std::ostringstream counts;
         counts.precision(15);
-        counts << "its header announces " << elements << " elements, but only " << held
+        counts << "its header announces " << announced << " elements, but only " << held
                << (ascii ? " lines" : " bytes") << " follow";
         reject(file, counts.str());
     }
@@ -195,6 +255,24 @@ void checkGlb(const std::filesystem::path& file) {
     if (announced > held)
         reject(file, "its first chunk is to have " + std::to_string(announced) +
                          " bytes, but only " + std::to_string(held) + " follow");
+}
+
+/// Why there is no model.
+std::string whyNot(const Assimp::Importer& importer) {
+    constexpr const char* kTooMuch =
+        "announces more than fits into memory; it may be damaged or cut short";
+    if (const std::exception_ptr& thrown = importer.GetException()) {
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const std::bad_alloc&) {
+            return kTooMuch;
+        } catch (const std::length_error&) {
+            return kTooMuch;
+        } catch (const std::exception&) {
+            // As Assimp words it.
+        }
+    }
+    return oneLine(importer.GetErrorString());
 }
 
 /// Fit for the name of a picture's file.
@@ -222,7 +300,7 @@ std::vector<SceneObject> objectsOf(const std::filesystem::path& file,
     const aiScene* model = importer.ReadFile(
         file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_SortByPType |
                            aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
-    if (model == nullptr) reject(file, oneLine(importer.GetErrorString()));
+    if (model == nullptr) reject(file, whyNot(importer));
 
     std::vector<SceneObject> objects;
     std::size_t triangles = 0;
@@ -297,8 +375,30 @@ bool isModelFile(std::string_view source) {
     return !builtIn && source.find_first_of("./") != std::string_view::npos;
 }
 
+std::string_view withoutOptions(std::string_view source) {
+    if (!isModelFile(source)) return source.substr(0, source.find(':'));
+    std::error_code unreadable;
+    for (std::size_t end = source.size(); end != std::string_view::npos && end > 0;
+         end = source.rfind(':', end - 1)) {
+        const std::string_view file = source.substr(0, end);
+        if (std::filesystem::is_regular_file(file, unreadable)) return file;
+    }
+    std::string_view file = source;
+    for (std::size_t colon = file.rfind(':');
+         colon != std::string_view::npos && file.find('=', colon) != std::string_view::npos &&
+         file.find('/', colon) == std::string_view::npos;
+         colon = file.rfind(':'))
+        file = file.substr(0, colon);
+    return file;
+}
+
 Scene openScene(std::string_view source) {
-    return isModelFile(source) ? loadScene(std::filesystem::path(source)) : makeScene(source);
+    if (!isModelFile(source)) return makeScene(source);
+    const std::string_view file = withoutOptions(source);
+    Scene scene = loadScene(file);
+    scene.source = source;
+    applyOptions(scene, source.substr(file.size()));
+    return scene;
 }
 
 }  // namespace renderer

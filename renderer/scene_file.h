@@ -22,7 +22,13 @@ Scene loadScene(const std::filesystem::path& file);
 /// Whether a source has a dot or a slash and is no built-in scene's name.
 bool isModelFile(std::string_view source);
 
-/// A built-in scene as makeScene() takes it, or a model file.
+/// The part of a source that names the scene: what is behind it are options. Of a model the longest
+/// part up to a colon that is a file, so a colon may be in its name; where none is, all but what
+/// looks like options.
+std::string_view withoutOptions(std::string_view source);
+
+/// A built-in scene as makeScene() takes it, or a model file with such options behind it. Throws
+/// what makeScene(), loadScene() and applyOptions() throw.
 Scene openScene(std::string_view source);
 
 }  // namespace renderer

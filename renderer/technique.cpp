@@ -143,6 +143,23 @@ int Technique::mapSamples(const ParameterValues& values) const {
     return slot ? static_cast<int>(values[*slot]) : 1;
 }
 
+std::string valueText(const TechniqueParameter& parameter, float value) {
+    if (parameter.zeroIsAuto && value == 0) return "auto";
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
+    return text;
+}
+
+std::string rangeText(const TechniqueParameter& parameter) {
+    if (parameter.whole && parameter.low == 0 && parameter.high == 1) return "0 or 1";
+    TechniqueParameter numbers = parameter;
+    numbers.zeroIsAuto = false;
+    const std::string range = valueText(numbers, parameter.zeroIsAuto ? 1 : parameter.low) +
+                              " to " + valueText(numbers, parameter.high) +
+                              (parameter.whole ? " in whole numbers" : "");
+    return parameter.zeroIsAuto ? "auto or " + range : range;
+}
+
 namespace {
 
 template <class Rows>
@@ -152,20 +169,14 @@ std::string namesOf(const Rows& rows) {
     return names.empty() ? "none" : names;
 }
 
-std::string numberText(float number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", static_cast<double>(number));
-    return text;
-}
-
 void checkParameter(const Technique& technique, const TechniqueParameter& parameter, float value) {
     const bool inRange = value >= parameter.low && value <= parameter.high;
-    if (!inRange || (parameter.whole && value != std::floor(value)))
-        throw std::invalid_argument(
-            "parameter " + std::string(parameter.name) + " of technique " +
-            std::string(technique.name) + " is " + numberText(value) + ", must be " +
-            (parameter.whole ? "a whole number in [" : "in [") + numberText(parameter.low) + ", " +
-            numberText(parameter.high) + "]");
+    if (inRange && !(parameter.whole && value != std::floor(value))) return;
+    char number[32];
+    std::snprintf(number, sizeof number, "%g", static_cast<double>(value));
+    throw std::invalid_argument("parameter " + std::string(parameter.name) + " of technique " +
+                                std::string(technique.name) + " is " + number + ", must be " +
+                                rangeText(parameter));
 }
 
 }  // namespace

@@ -82,6 +82,11 @@ struct Exemption {
     std::string_view because;
 };
 
+/// As options and tables write it: "auto" where it is that.
+std::string valueText(const TechniqueParameter& parameter, float value);
+/// "0 to 4", "0 or 1", "auto or 1 to 16 in whole numbers".
+std::string rangeText(const TechniqueParameter& parameter);
+
 inline constexpr std::size_t kMaxTechniqueParameters =
     8;  ///< the size of ShadowConstants::parameters
 using ParameterValues = std::array<float, kMaxTechniqueParameters>;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,8 +24,11 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 std::vector<std::string> smallFrame(std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"--headless", "--width",  "64", "--height",
-                                          "36",         "--frames", "1"};
+    std::vector<std::string> arguments = {"--headless", "--width", "64", "--height", "36"};
+    if (std::ranges::find(more, "--frames") == more.end()) {
+        more.emplace_back("--frames");
+        more.emplace_back("1");
+    }
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -155,6 +159,47 @@ TEST(ShadowDemo, RefusesBadInputInOneSentence) {
     EXPECT_THAT(zero.err, HasSubstr("viewport is 0 x 720"));
 }
 
+TEST(ShadowDemo, NamesTheStateFileWhoseSceneCannotBeShown) {
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "state.json").string();
+    ASSERT_EQ(tests::runProgram("shadow_demo", smallFrame({"--state", file})).exitCode, 0);
+    auto state = nlohmann::json::parse(std::ifstream(file));
+    for (const auto& [scene, sentence] : std::vector<std::pair<std::string, std::string>>{
+             {"/no/such.obj", "/no/such.obj: no such model file"},
+             {"yard:cascades=99", "scene \"yard:cascades=99\": cascades is \"99\""}}) {
+        state["scene"] = scene;
+        std::ofstream(file) << state;
+        const auto result = tests::runProgram("shadow_demo", smallFrame({"--state", file}));
+        EXPECT_EQ(result.exitCode, 1);
+        EXPECT_THAT(result.err, StartsWith("shadow_demo: " + file + ": field scene: " + sentence));
+        // Not where the command line names the scene.
+        const auto other =
+            tests::runProgram("shadow_demo", smallFrame({"--state", file, "--scene", scene}));
+        EXPECT_THAT(other.err, StartsWith("shadow_demo: " + sentence));
+    }
+}
+
+TEST(ShadowDemo, SaysThatAStillSequenceIsOnePicture) {
+    const tests::TemporaryFolder folder;
+    const std::string out = (folder.path() / "sequence").string();
+    const auto sequence = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--sequence", out});
+        return tests::runProgram("shadow_demo", smallFrame(more)).err;
+    };
+    EXPECT_EQ(sequence({}), "") << "a single picture";
+    EXPECT_THAT(sequence({"--frames", "2"}), HasSubstr("note: --path is still"));
+    EXPECT_EQ(sequence({"--frames", "2", "--path", "sun"}), "");
+}
+
+TEST(ShadowDemo, NamesARangeAsItsListDoes) {
+    const auto refused = tests::runProgram(
+        "shadow_demo", smallFrame({"--technique", "lvsm", "--parameter", "layers=17"}));
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_THAT(refused.err, HasSubstr("layers of technique lvsm is 17, must be auto or 1 to 16"));
+    EXPECT_THAT(tests::runProgram("shadow_demo", {"--list-techniques"}).out,
+                HasSubstr("auto or 1 to 16"));
+}
+
 TEST(ShadowDemo, StopsAtTheStartWhereAShaderOfTheFolderDoesNotCompile) {
     const tests::TemporaryFolder folder;
     std::filesystem::copy(tests::sourceFolder() / "renderer/shaders", folder.path(),
@@ -218,6 +263,52 @@ TEST(ShadowDemo, RunsInAWindow) {
     std::ofstream(own) << "{";
     shown("");
     EXPECT_THAT(records::readWholeFile(log), HasSubstr("beginning anew"));
+    ::unsetenv("XDG_STATE_HOME");
+}
+
+/// Starts the window for two frames; exit code, and what it said.
+std::pair<int, std::string> startedInWindow(const std::filesystem::path& log,
+                                            const std::string& options) {
+    const std::string command = "xvfb-run -a -s '-screen 0 320x200x24' " +
+                                (tests::programFolder() / "shadow_demo").string() +
+                                " --frames 2 --width 96 --height 54 " + options + " > " +
+                                log.string() + " 2>&1";
+    const int status = std::system(command.c_str());
+    return {status, records::readWholeFile(log)};
+}
+
+// Nobody asked for it, and without the window it cannot be changed.
+TEST(ShadowDemo, BeginsAnewWhereTheKeptStateCannotBeShown) {
+    const tests::TemporaryFolder folder;
+    ::setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
+    const auto log = folder.path() / "log", own = folder.path() / "stairwell/shadow_demo.json";
+    ASSERT_EQ(startedInWindow(log, "").first, 0);
+    const auto good = nlohmann::json::parse(std::ifstream(own));
+    const std::string noSlope = (folder.path() / "no slope.json").string();
+    std::ofstream(noSlope) << "{\"c\": 3}";
+    const std::vector<nlohmann::json> changes = {{{"resolution", 1000000}},
+                                                 {{"slope", folder.path().string()}},
+                                                 {{"slope", noSlope}},
+                                                 {{"slope", "/no/such/slope.json"}},
+                                                 {{"view", "difference"}, {"compare_with", 20000}},
+                                                 {{"view", "split"}, {"compare_with", 1000000}},
+                                                 {{"scene", "/no/such/model.obj"}}};
+    for (const nlohmann::json& change : changes) {
+        nlohmann::json state = good;
+        state.update(change);
+        std::ofstream(own) << state;
+        const auto [status, said] = startedInWindow(log, "");
+        EXPECT_EQ(status, 0) << change << said;
+        EXPECT_THAT(said, HasSubstr("note: ")) << change;
+        EXPECT_THAT(said, HasSubstr("beginning anew")) << change;
+        EXPECT_EQ(nlohmann::json::parse(std::ifstream(own)), good) << change;
+        // A file that was named stays an error.
+        const auto named = folder.path() / "named.json";
+        std::ofstream(named) << state;
+        const auto [refused, sentence] = startedInWindow(log, "--state " + named.string());
+        EXPECT_NE(refused, 0) << change << sentence;
+        EXPECT_EQ(nlohmann::json::parse(std::ifstream(named)), state) << change;
+    }
     ::unsetenv("XDG_STATE_HOME");
 }
 

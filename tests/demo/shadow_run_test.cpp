@@ -106,6 +106,24 @@ TEST(ShadowRun, PixelsBoundTheSize) {
     EXPECT_GE(run.chosen().resolution, 32);
 }
 
+// What the softness says does not matter where nothing is blurred: a texel is to be no larger than
+// a pixel. Far more pixels than texels, so that the slope alone would ask for 87.
+TEST(ShadowRun, WithoutABlurTexelsAreAsSmallAsPixels) {
+    renderer::Renderer frame(gl(), renderer::makeScene("planar_occluder"), 320, 180);
+    const auto sizeOf = [&](const char* technique, double radiusUv) {
+        ShadowRun::Settings settings = settingsAt(radiusUv, 3.47);
+        settings.technique = &renderer::findTechnique(technique);
+        settings.parameters = settings.technique->standardParameters();
+        ShadowRun run(frame, gl(), settings);
+        run.settle();
+        return run.chosen().resolution;
+    };
+    const int hard = sizeOf("hard", 0.04);
+    EXPECT_EQ(hard, sizeOf("hard", 0.001));
+    EXPECT_EQ(hard, sizeOf("pcf_disc", 0));
+    EXPECT_GE(hard, 3 * sizeOf("pcf_disc", 0.04));
+}
+
 TEST(ShadowRun, SettlesFromAnyViewAndStays) {
     renderer::Renderer frame(gl(), renderer::makeScene("yard"), 160, 90);
     ShadowRun run(frame, gl(), settingsAt(0.01, 3.47));
@@ -390,6 +408,69 @@ TEST(SeveralMaps, CascadesAreSizedByWhatTheyServe) {
     }
 }
 
+double worstRatio(const ShadowRun& run) {
+    double worst = 0;
+    for (const demo::ChosenResolution& map : run.maps()) worst = std::max(worst, map.artifactRatio);
+    return worst;
+}
+
+/// Frames with the demand of the one before, on any machine.
+void stepFinished(ShadowRun& run, int frames) {
+    for (int i = 0; i < frames; ++i) {
+        run.step();
+        glFinish();
+    }
+}
+
+// Seen in one view and not in the next: the budget goes by what is in view now, also where it has
+// cut the map's size before. A level of sqrt 2 may be held from another view.
+TEST(SeveralMaps, OneThatWasInViewLeavesItsShareOfABudgetToTheOthers) {
+    const renderer::Scene scene = renderer::makeScene("yard:lamps=3:cascades=3");
+    renderer::OrbitCamera other = scene.camera;
+    other.yawDeg = std::remainder(other.yawDeg + 180.0F, 360.0F);
+    other.distanceM *= 0.4F;
+    renderer::Renderer frame(gl(), scene, 128, 72), swungFrame(gl(), scene, 128, 72);
+    ShadowRun::Settings settings = settledIn(frame, "pcf_disc");
+    settings.budgetTexels = 150000;
+    ShadowRun run(frame, gl(), settings), swung(swungFrame, gl(), settings);
+    stepFinished(run, 100);
+    const auto unseen =
+        std::ranges::find(run.maps(), "no penumbra of it in view", &demo::ChosenResolution::reason);
+    ASSERT_NE(unseen, run.maps().end()) << "or the test could not fail";
+    for (const auto& [camera, frames] :
+         {std::pair{other, 60}, {scene.camera, 70}, {other, 60}, {scene.camera, 150}}) {
+        swungFrame.setCamera(camera);
+        stepFinished(swung, frames);
+    }
+    const auto map = static_cast<std::size_t>(unseen - run.maps().begin());
+    EXPECT_EQ(swung.maps()[map].resolution, 64) << "the smallest size";
+    EXPECT_LE(worstRatio(swung), 1.01 * worstRatio(run));
+}
+
+// Every face of the point lamp but one is in view, and the texels are scarce.
+TEST(SeveralMaps, OneOutOfViewAsksForTheSmallestSizeUnderABudget) {
+    renderer::Scene scene = renderer::makeScene("lamps");
+    renderer::Renderer frame(gl(), scene, 128, 72);
+    ShadowRun::Settings settings = settledIn(frame, "pcf_disc");
+    ShadowRun run(frame, gl(), settings);
+    const auto unseen = [&] {
+        const auto found = std::ranges::find(run.maps(), "no penumbra of it in view",
+                                             &demo::ChosenResolution::reason);
+        return found == run.maps().end() ? 0 : found->resolution;
+    };
+    run.settle();
+    EXPECT_EQ(unseen(), 256) << "without a budget";
+    settings.budgetTexels = 400000;
+    run.change(settings);
+    stepFinished(run, 50);
+    EXPECT_EQ(unseen(), 64);
+    EXPECT_LE(worstRatio(run), 1.21) << "a level more for each that is in view can be paid";
+    settings.budgetTexels.reset();
+    run.change(settings);
+    stepFinished(run, 2);
+    EXPECT_EQ(unseen(), 256) << "at once";
+}
+
 TEST(SeveralMaps, OneMapKeepsToABudgetToo) {
     renderer::Renderer frame(gl(), renderer::makeScene("yard"), 160, 90);
     ShadowRun::Settings settings = settingsAt(0.01, 3.47);
@@ -482,6 +563,8 @@ TEST(ShadowRun, JoinsControllerAndRendererInTheLinesThatEnginesAreShown) {
     for (std::string line; std::getline(lines, line, ';'); ++count)
         EXPECT_THAT(code, HasSubstr(line + ";"));
     EXPECT_EQ(count, 5);
+    EXPECT_THAT(withoutSpace("README.md"),
+                HasSubstr(manual.substr(begin + open.size(), end - begin - open.size())));
 }
 
 TEST(LoadedSlope, IsThePublishedOneForTheAudienceAskedFor) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "demo/viewer_message.h"
+#include "demo/viewer_panel.h"
 #include "tests/headless_gl.h"
 #include "tests/project_folders.h"
 #include "tests/temporary_folder.h"
@@ -126,6 +128,23 @@ TEST(Viewer, BeginsWithTheSlopeThatAStateFileNames) {
     EXPECT_THAT(messageOf([&] { viewer.show(state); }), HasSubstr("/no/such/slope.json"));
     EXPECT_EQ(viewer.state(), again);
     EXPECT_NEAR(viewer.slope().slope.c, 3.22, 0.005);
+}
+
+// As the panel's sliders ask for it.
+TEST(Viewer, ShowsAModelWithSeveralMaps) {
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "wedge.obj").string();
+    std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 2 3 4\n";
+    ViewerState state = smallState(View::picture);
+    state.scene = file;
+    demo::Viewer viewer(gl(), state, 32, 18);
+    viewer.step();
+    EXPECT_EQ(viewer.run().maps().size(), 1U);
+    state.scene = demo::withSceneOption(state.scene, "cascades", 2, 1);
+    state.scene = demo::withSceneOption(state.scene, "lamps", 1, 0);
+    viewer.show(state);
+    viewer.step();
+    EXPECT_EQ(viewer.run().maps().size(), 3U);
 }
 
 TEST(Viewer, ShowsThePenumbraeOfTheMapThatIsAskedFor) {
@@ -305,6 +324,10 @@ TEST(ViewerState, NamesFieldValueAndRuleOfABadFile) {
                 HasSubstr("budget_texels"));
     EXPECT_THAT(readWith("\"parameters\": {}", "\"parameters\": {\"hart\": {}}"),
                 HasSubstr("hart"));
+    EXPECT_THAT(readWith("\"path_place\": 0.0", "\"path_place\": 1"),
+                HasSubstr("path_place: 1: must be in [0, 1)"));
+    EXPECT_THAT(readWith("\"detection\": 0.0", "\"detection\": 1"),
+                HasSubstr("detection: 1: must be in [0, 1)"));
     EXPECT_THAT(readWith("state 1.0", "state 2.0"), HasSubstr("schema"));
     EXPECT_THAT(readWith("\"panel\"", "\"pannel\""), HasSubstr("panel"));
 }
@@ -320,6 +343,38 @@ TEST(ViewerState, ChangesOneOptionOfAScene) {
     EXPECT_EQ(sceneOption("yard:cascades=4:lamps=2", "lamps", 0), 2);
     EXPECT_EQ(sceneOption("yard:cascades=", "cascades", 1), 1);
     EXPECT_EQ(sceneOption("lamps", "lamps", 0), 0);
+    EXPECT_EQ(withSceneOption("a/b.obj:lamps=2", "cascades", 3, 1), "a/b.obj:lamps=2:cascades=3");
+    EXPECT_EQ(sceneOption("a/b.obj:lamps=2", "lamps", 0), 2);
+    // A file of that name.
+    const tests::TemporaryFolder folder;
+    const std::string file = (folder.path() / "b:cascades=2.obj").string();
+    std::ofstream(file) << "v";
+    EXPECT_EQ(sceneOption(file, "cascades", 1), 1);
+    EXPECT_EQ(withSceneOption(file + ":cascades=5", "cascades", 3, 1), file + ":cascades=3");
+}
+
+TEST(ViewerMessage, StaysAsLongAsItTakesToReadItAfterItWasSaidLast) {
+    demo::ViewerMessage message;
+    EXPECT_EQ(message.text(), "");
+    message.say("saved as picture.png");
+    message.pass(3);
+    message.say("saved as picture.png");
+    message.pass(3);
+    EXPECT_EQ(message.text(), "saved as picture.png");
+    message.pass(3);
+    EXPECT_EQ(message.text(), "");
+    message.say(std::string(400, 'x'));
+    message.pass(20);
+    EXPECT_NE(message.text(), "") << "a long one longer";
+    message.pass(20);
+    EXPECT_EQ(message.text(), "");
+}
+
+TEST(ViewerPanel, StaysInsideTheWindow) {
+    EXPECT_EQ(demo::keptInside(16, 400, 1280), 16);
+    EXPECT_EQ(demo::keptInside(-300, 400, 1280), 0) << "after a tiny window";
+    EXPECT_EQ(demo::keptInside(1100, 400, 1280), 880);
+    EXPECT_EQ(demo::keptInside(16, 400, 96), 0) << "its beginning at least";
 }
 
 TEST(ViewerKeys, ChangeWhatTheySay) {

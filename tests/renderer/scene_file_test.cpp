@@ -8,12 +8,14 @@
 #include <fstream>
 
 #include "tests/temporary_folder.h"
+#include "tests/thrown_message.h"
 
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
+using tests::messageOf;
 
 /// A wedge of the given size far from the origin, as OBJ: a quad, two triangles, one without
 /// normals.
@@ -123,9 +125,34 @@ TEST_F(SceneFile, NamesFileAndFaultInOneLine) {
          "its header announces "},
         {written("many.ply", std::string(kPly).replace(std::string(kPly).find("vertex 4"), 8,
                                                        "vertex 4000000000")),
-         "its header announces 40000000"},
+         "vertex 4: the line \"3 0 1 2\" does not hold"},
+        {written("more vertices.ply",
+                 std::string(kPly)
+                     .replace(std::string(kPly).find("vertex 4"), 8, "vertex 4000000000")
+                     .substr(0, std::string(kPly).find("\n3 0 1") + 10)),
+         "its header announces 4000000002 elements, but only 4 lines follow"},
+        {written("empty lines.ply",
+                 std::string(kPly).replace(std::string(kPly).find("0.002"), 5, "\n\n0.002")),
+         "vertex 1: empty lines stand before it"},
         {written("vertices.ply", std::string(kPly).substr(0, std::string(kPly).find("0.002"))),
          "its header announces 6 elements, but only 1 lines follow"},
+        {written("gap.ply",
+                 std::string(kPly).replace(std::string(kPly).find("0.002 0 0"), 9, "0.002 0")),
+         "vertex 1: the line \"0.002 0\" does not hold the values that the header announces"},
+        {written("corner.ply",
+                 std::string(kPly).replace(std::string(kPly).find("3 0 2 3"), 7, "4 0 2 3")),
+         "face 1: the line \"4 0 2 3\" does not hold"},
+        {written("more.ply",
+                 std::string(kPly).replace(std::string(kPly).find("0.002 0 0"), 9, "0.002 0 0 7")),
+         "vertex 1: the line \"0.002 0 0 7\" does not hold"},
+        {written("none.ply", std::string(kPly).replace(std::string(kPly).find("3 0 2 3"), 7, "0")),
+         "face 1: the line \"0\" does not hold"},
+        {written("list.ply",
+                 "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
+                 "property float y\nproperty float z\nelement face 1\n"
+                 "property list uint int vertex_indices\nend_header\n" +
+                     std::string(12, '\0') + "\377\377\377\377" + std::string(12, '\0')),
+         "announces more than fits into memory"},
         {written("chunk.glb", std::string("glTF\2\0\0\0\377\0\0\0\377\377\377\377JSON", 20)),
          "its first chunk is to have 4294967295 bytes, but only 0 follow"},
         {written("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), ""},
@@ -142,6 +169,13 @@ TEST_F(SceneFile, NamesFileAndFaultInOneLine) {
         EXPECT_THAT(message, Not(HasSubstr("\n"))) << file;
         EXPECT_GT(message.size(), file.string().size() + 5) << message;
     }
+}
+
+// An empty line, tabs and returns are none of its faults.
+TEST_F(SceneFile, ReadsAPlyFileWhoseRowsAreWhole) {
+    std::string ply = kPly;
+    ply.replace(ply.find("0.002 0 0"), 9, "\n  0.002\t0 0\r");
+    expectStandsWell(renderer::loadScene(written("loose.ply", ply)), 2);
 }
 
 TEST_F(SceneFile, SaysWhatItLeavesOut) {
@@ -187,6 +221,36 @@ TEST_F(SceneFile, TheGroundLiesBelowTheModel) {
         EXPECT_LT(vertex.position.y, -1e-3F);
         EXPECT_GT(vertex.position.y, -1e-2F);
     }
+}
+
+TEST_F(SceneFile, TakesTheOptionsOfAScene) {
+    const std::string file = written("x.obj", kObj).string();
+    const renderer::Scene scene = renderer::openScene(file + ":cascades=3:lamps=2");
+    EXPECT_EQ(scene.cascades, 3);
+    EXPECT_EQ(scene.lamps.size(), 2U);
+    EXPECT_EQ(scene.source, file + ":cascades=3:lamps=2");
+    EXPECT_EQ(scene.name, "x_3_cascades_2_lamps") << "fit for a file's name";
+    EXPECT_EQ(casterTriangles(renderer::openScene(file + ":triangles=16")), 16U);
+    const std::pair<std::string, std::string> bad[] = {
+        {file + ":cascade=2", "option \"cascade=2\" is not known; known are "},
+        {file + ":cascades", "option \"cascades\" is not known; known are "},
+        {file + ":lamps=2:", "option \"\" is not known"},
+        {file + ":cascades=9", "cascades is \"9\", must be a whole number from 1 to 8"},
+        {file + ":lamps=64", "lamps is \"64\", must be a whole number from 1 to 63"}};
+    for (const auto& [source, fault] : bad)
+        EXPECT_THAT(messageOf<std::invalid_argument>([&] { renderer::openScene(source); }),
+                    StartsWith("scene \"" + source + "\": " + fault));
+    for (const std::string missing : {"/no/such.obj", "/no/such:one.obj"})
+        EXPECT_EQ(messageOf([&] { renderer::openScene(missing + ":cascades=2:lamps=1"); }),
+                  missing + ": no such model file");
+}
+
+TEST_F(SceneFile, AFileWhoseNameHoldsWhatLooksLikeAnOptionIsThatFile) {
+    const std::string file = written("y.obj:cascades=2.obj", kObj).string();
+    EXPECT_EQ(renderer::openScene(file).cascades, 1);
+    EXPECT_EQ(renderer::openScene(file + ":cascades=4").cascades, 4);
+    EXPECT_EQ(renderer::withoutOptions(file + ":cascades=4"), file);
+    EXPECT_EQ(renderer::withoutOptions("yard:cascades=4"), "yard");
 }
 
 TEST_F(SceneFile, AScenesNameGoesBeforeAFile) {

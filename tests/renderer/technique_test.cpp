@@ -83,18 +83,18 @@ TEST(Technique, RefusesUnknownNamesAndValuesOutOfRange) {
               "technique pcf_disc has no parameter \"bias\"; it has: bias_texels, "
               "bias_reaches");
     EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", -1e-9F); }),
-                HasSubstr("is -1e-09, must be in [0, 4]"));
+                HasSubstr("is -1e-09, must be 0 to 4"));
     EXPECT_THAT(message([&] { setParameter(disc, values, "bias_texels", NAN); }), HasSubstr("nan"));
     setParameter(disc, values, "bias_texels", 2);
     EXPECT_NO_THROW(checkParameters(disc, values));
     renderer::ParameterValues spoilt = values;
     spoilt[1] = NAN;
     EXPECT_THAT(message([&] { checkParameters(disc, spoilt); }),
-                "parameter bias_reaches of technique pcf_disc is nan, must be in [0, 2]");
+                "parameter bias_reaches of technique pcf_disc is nan, must be 0 to 2");
     EXPECT_EQ(values[0], 2.0F);
     values = vsm.standardParameters();
     EXPECT_THAT(message([&] { setParameter(vsm, values, "gaussian", 0.5F); }),
-                HasSubstr("must be a whole number in [0"));
+                HasSubstr("is 0.5, must be 0 or 1"));
     setParameter(vsm, values, "gaussian", 1);
     EXPECT_EQ(values[*vsm.parameterSlot("gaussian")], 1.0F);
 }
