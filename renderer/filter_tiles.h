@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which tiles of a filtered map visible surfaces look up, so that the prefilter leaves the others
-// out: what the camera does not see, what is turned away from the light, and what another map
-// serves has no penumbra to filter. Found on the GPU, from the prepass, and used there by indirect
-// dispatch: nothing waits.
-//
-// Whether a receiver that is looked up lies in a penumbra is not known before its lookup; a tile
-// may be filtered that turns out to be all light.
+// Which tiles of a filtered map the prefilter does. It leaves out those that no visible surface looks
+// up (the camera does not see it, it is turned away from the light, another map serves it), and those
+// in which nothing can lie in a penumbra: the kernel meets one surface there, or several of which none
+// ends before another. Such a tile holds what its texels store, unfiltered. Found on the GPU, from the
+// prepass and from the depths, and used there by indirect dispatch: nothing waits.
 #pragma once
 
 #include <array>
@@ -28,6 +26,12 @@ struct VisibleSurfaces {
     PixelRect pixels;
 };
 
+/// What is left out of a map.
+struct LeftOut {
+    const VisibleSurfaces* seen = nullptr;  ///< what these do not look up; null: nothing of that
+    bool outsidePenumbrae = false;          ///< where nothing can lie in one
+};
+
 class FilterTiles {
   public:
     /// The passes of a prefilter in their order. One needs what the next one's kernel reads.
@@ -36,39 +40,48 @@ class FilterTiles {
 
     explicit FilterTiles(const ShaderLibrary& shaders) : shaders_(shaders) {}
 
-    /// Compiles what find() needs; throws std::runtime_error where it does not compile.
+    /// Compiles what start() needs; throws std::runtime_error where it does not compile.
     void prepare();
 
-    /// Whether less is left out than finding it costs, by the sizes alone, or a list of tiles may
-    /// be longer than a driver takes. `spreadTexels`: between a receiver's place on the map and the
-    /// lookups around it.
-    static bool costsMoreThanItSaves(const f32::ShadowConstants& shadow, int layers,
-                                     const PixelRect& pixels, float spreadTexels);
-
-    /// For the map whose constants are bound, where that does not hold.
-    void find(const f32::ShadowConstants& shadow, int layers, const VisibleSurfaces& seen,
-              float spreadTexels);
+    /// For the map whose constants are bound: finds what is seen. What of `leave` costs more than it
+    /// saves, by the sizes alone, is not left out. `spreadTexels`: between a receiver's place on the
+    /// map and the lookups around it.
+    void start(const f32::ShadowConstants& shadow, int layers, LeftOut leave, float spreadTexels);
     /// From now on all tiles.
-    void forget() { found_ = false; }
-    /// Whether the passes have lists; then their programs are those with LISTED.
-    bool found() const { return found_; }
+    void forget();
 
-    /// A group for every tile of the pass in every layer, once they are found; the program in use
-    /// includes passes/tiles.glsl.
+    /// Whether the pass over texels has a list; then its program is that with LISTED.
+    bool listsTexels() const { return listsTexels_; }
+    /// Where the pass over texels marks gaps, or that it marks none, for the program with MARKS_GAPS
+    /// that is in use.
+    void bindGaps() const;
+
+    /// Once the texels are done: `rows` and `columns` are the groups, in x and y, of passes that do
+    /// the whole map.
+    void listLines(std::array<GLuint, 2> rows, std::array<GLuint, 2> columns);
+    /// Whether the passes along lines have lists. Each is then called twice, by dispatch() with the
+    /// program with LISTED and by dispatchWhole() with the other: the GPU knows which is faster, and
+    /// one of them does nothing.
+    bool listsLines() const { return listsTexels_ || marksGaps_; }
+
+    /// A group for every tile of the pass in every layer; the program in use includes
+    /// passes/tiles.glsl.
     void dispatch(Pass pass) const;
+    void dispatchWhole(Pass pass) const;
 
     /// Share of the tiles that the last pass did. Waits for the GPU.
     double readShare() const;
 
   private:
     void reserve(int tilesEdge);
+    void list(Pass first, Pass last) const;
 
     ShaderLibrary shaders_;
-    Program marksProgram_, listsProgram_;
-    Buffer marks_, lists_;
+    Program marksProgram_, listsProgram_, choiceProgram_;
+    Buffer seen_, gaps_, lists_;
     int reservedEdge_ = 0;
-    int tilesEdge_ = 0;
-    bool found_ = false;
+    int tilesEdge_ = 0, reachTexels_ = 0, layers_ = 0;
+    bool listsTexels_ = false, marksGaps_ = false;
 };
 
 }  // namespace renderer

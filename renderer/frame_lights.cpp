@@ -65,8 +65,10 @@ void Renderer::fitViews() {
     }
     const std::size_t firstOfLamps = fitted.size();
     for (std::size_t lamp = 0; lamp < scene_.lamps.size(); ++lamp)
-        for (const LightView& view : lampViews(scene_.lamps[lamp], lamp + 1))
-            fitted.push_back(view);
+        for (LightView& view : lampViews(scene_.lamps[lamp], lamp + 1)) {
+            fitLampDepth(view.window, scene_.casters);
+            fitted.push_back(std::move(view));
+        }
     lampSteps_.resize(fitted.size() - firstOfLamps);
     if (windowFit_ == WindowFit::view && widthPx_ > 0) {
         ConvexBody seen = viewVolume(scene_.camera, static_cast<double>(widthPx_) / heightPx_,

@@ -191,7 +191,9 @@ void Renderer::drawShadows(const FrameSettings& settings, const Technique& techn
         const PassScope scope(Pass::prefilter, clock);
         enterLayers(technique, settings.parameters.value_or(technique.standardParameters()), view);
         const VisibleSurfaces seen{.positions = positions_.name(), .pixels = served_[view]};
-        filterMap(technique, view, settings.filterUnseen ? nullptr : &seen);
+        filterMap(technique, view,
+                  {.seen = settings.filterUnseen ? nullptr : &seen,
+                   .outsidePenumbrae = !settings.filterOutsidePenumbrae});
     }
     const PassScope scope(Pass::lookup, clock);
     drawLookup(technique, view, weight);
@@ -217,10 +219,10 @@ std::size_t Renderer::drawCasters(const Framebuffer& target, int edge,
 }
 
 void Renderer::filterMap(const Technique& technique, std::size_t view,
-                         const VisibleSurfaces* seen) {
+                         const LeftOut& leave) {
     const Map& map = maps_[view];
     mapFilter_.run(technique, parametersIn(shadows_[view]), shadows_[view],
-                   map.samples > 1 ? map.sampledDepths : map.depths, filterSpare_, seen);
+                   map.samples > 1 ? map.sampledDepths : map.depths, filterSpare_, leave);
 }
 
 void Renderer::enterLayers(const Technique& technique, const ParameterValues& asked,

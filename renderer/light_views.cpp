@@ -3,10 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <stdexcept>
 
 namespace renderer {
 namespace {
+
+void setRow(ShadowWindow& window, int row, const glm::dvec4& plane) {
+    for (int column = 0; column < 4; ++column) window.shadowFromWorld[column][row] = plane[column];
+}
+
+/// Along the map's axis, whose row is set.
+void setDepths(ShadowWindow& window, double nearM, double farM) {
+    window.nearM = nearM;
+    window.depthRangeM = farM - nearM;
+    const glm::dvec4 along = glm::row(window.shadowFromWorld, 3);
+    setRow(window, 2, (along - glm::dvec4(0, 0, 0, nearM)) / window.depthRangeM);
+}
 
 /// A pyramid from the lamp around a way that it looks. `served` is the tangent of half the angle
 /// that it is for; the map is wider by the reach, at most to 1.5 times as much.
@@ -23,8 +36,6 @@ LightView pyramid(const Lamp& lamp, glm::dvec3 forward, double served, std::size
     view.softnessUv = std::min(softness / (2 * halfWidth), 1.0);
     ShadowWindow& window = view.window;
     window.extentM = 2 * halfWidth;
-    window.nearM = static_cast<double>(lamp.nearM);
-    window.depthRangeM = static_cast<double>(lamp.farM) - window.nearM;
     window.lampAt = at;
     // A little more than half, or rounding could leave points on an edge to no face.
     const double halfWidthUv = 0.5 * served / halfWidth + 1e-6;
@@ -33,14 +44,10 @@ LightView pyramid(const Lamp& lamp, glm::dvec3 forward, double served, std::size
     // (u w, v w, depth, w) with w the distance along the axis.
     const glm::dvec3 u = right / window.extentM + 0.5 * forward;
     const glm::dvec3 v = up / window.extentM + 0.5 * forward;
-    const glm::dvec3 depth = forward / window.depthRangeM;
-    const glm::dvec4 rows[4] = {{u, -glm::dot(u, at)},
-                                {v, -glm::dot(v, at)},
-                                {depth, -glm::dot(depth, at) - window.nearM / window.depthRangeM},
-                                {forward, -glm::dot(forward, at)}};
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            window.shadowFromWorld[column][row] = rows[row][column];
+    setRow(window, 0, {u, -glm::dot(u, at)});
+    setRow(window, 1, {v, -glm::dot(v, at)});
+    setRow(window, 3, {forward, -glm::dot(forward, at)});
+    setDepths(window, static_cast<double>(lamp.nearM), static_cast<double>(lamp.farM));
     return view;
 }
 
@@ -96,6 +103,22 @@ std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light) {
             faces.push_back(pyramid(lamp, forward, 1, light));
         }
     return faces;
+}
+
+void fitLampDepth(ShadowWindow& window, const Bounds& casters) {
+    // Room for receivers behind the farthest caster, so that a depth near 1 is told from it.
+    constexpr double kRoomBehind = 1.25;
+    const glm::dvec3 at = *window.lampAt;
+    const glm::dvec3 low(casters.low), high(casters.high);
+    if (!glm::all(glm::lessThanEqual(low, high))) return;
+    const double nearest = glm::distance(at, glm::clamp(at, low, high));
+    const double farthest = glm::length(glm::max(glm::abs(low - at), glm::abs(high - at)));
+    // In the corner of the map a distance along its axis is the least share of the whole one.
+    const double halfWidth = 0.5 * window.extentM;
+    const double cornerShare = 0.99 / std::sqrt(1 + 2 * halfWidth * halfWidth);
+    const double nearM = std::max(window.nearM, cornerShare * nearest);
+    const double farM = std::min(window.nearM + window.depthRangeM, kRoomBehind * farthest);
+    if (nearM < farM) setDepths(window, nearM, farM);
 }
 
 void narrowLampView(LightView& view, const Bounds& casters, const ConvexBody& seen,

@@ -36,6 +36,11 @@ void checkLights(int cascades, std::span<const Lamp> lamps);
 /// std::invalid_argument for a lamp that cannot be drawn.
 std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light);
 
+/// The depths of one of them, to those of the casters and somewhat behind them, the same for all
+/// faces of a point: what lies behind is clamped, as under the sun. Left alone where no caster is
+/// between nearM and farM.
+void fitLampDepth(ShadowWindow& window, const Bounds& casters);
+
 /// One of them to what narrowLampWindow() finds, with the same blur in the scene.
 void narrowLampView(LightView& view, const Bounds& casters, const ConvexBody& seen,
                     std::optional<int>& heldStep);

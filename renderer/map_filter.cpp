@@ -57,6 +57,11 @@ bool isSeparable(Prefilter prefilter) {
            prefilter == Prefilter::minMaxMean;
 }
 
+/// Several depths in a texel are a gap of their own.
+bool marksGaps(const Technique& technique, bool sampled) {
+    return isSeparable(technique.prefilter) && !sampled;
+}
+
 /// Rows go into the second one, columns back.
 bool hasTwoTextures(Prefilter prefilter) {
     return isSeparable(prefilter) || prefilter == Prefilter::sums;
@@ -114,6 +119,7 @@ const Program& MapFilter::convertProgram(const Technique& technique, bool sample
     Program& convert = convertPrograms_[{&technique, sampled, listed}];
     if (convert.name() == 0) {
         ShaderOptions options = inTiles(techniqueOptions(technique), listed);
+        if (marksGaps(technique, sampled)) options.defines.push_back({"MARKS_GAPS", "1"});
         if (sampled) {
             options.defines.push_back({"SAMPLED", "1"});
             options.defines.push_back(prefilterDefine(
@@ -196,7 +202,7 @@ void MapFilter::dispatchTiles(GLuint source, std::size_t target, FilterTiles::Pa
 
 void MapFilter::run(const Technique& technique, const ParameterValues& parameters,
                     const f32::ShadowConstants& shadow, const Texture& depths, int spareN,
-                    const VisibleSurfaces* seen) {
+                    LeftOut leave) {
     prepare(technique);
     usedEdge_ = 0;
     usedLevels_ = 1;
@@ -206,21 +212,22 @@ void MapFilter::run(const Technique& technique, const ParameterValues& parameter
     ensureTextures(technique, edge + spare, layers, spareN > 0);
     usedEdge_ = edge;
     usedLayers_ = layers;
-    const float spread = lookupSpreadTexels(technique, parameters, shadow.prefilter);
-    if (seen != nullptr && isSeparable(technique.prefilter) &&
-        !FilterTiles::costsMoreThanItSaves(shadow, layers, seen->pixels, spread))
-        tiles_.find(shadow, layers, *seen, spread);
+    const bool sampled = technique.mapSamples(parameters) > 1;
+    leave.outsidePenumbrae = leave.outsidePenumbrae && marksGaps(technique, sampled);
+    if (isSeparable(technique.prefilter))
+        tiles_.start(shadow, layers, leave,
+                     lookupSpreadTexels(technique, parameters, shadow.prefilter));
     else
         tiles_.forget();
     waitForTexels();  // another map's lookup may still read them
-    const bool sampled = technique.mapSamples(parameters) > 1;
-    glUseProgram(convertProgram(technique, sampled, tiles_.found()).name());
+    glUseProgram(convertProgram(technique, sampled, tiles_.listsTexels()).name());
+    if (marksGaps(technique, sampled)) tiles_.bindGaps();
     if (sampled) {
         GLint samples = 0;  // a driver may have more than it was asked for
         glGetTextureLevelParameteriv(depths.name(), 0, GL_TEXTURE_SAMPLES, &samples);
         glUniform1i(2, samples);
     }
-    if (tiles_.found()) {
+    if (tiles_.listsTexels()) {
         dispatchTiles(depths.name(), 0, FilterTiles::Pass::texels);
     } else {
         const auto lines = static_cast<GLuint>(edge);
@@ -248,19 +255,31 @@ void MapFilter::filterLines(const Technique& technique, const f32::ShadowConstan
     const int taps = kernelTaps(shadow);
     if (taps == 0) return;
     const GLuint strip = 2 * taps < static_cast<int>(kStrip) ? kShortStrip : kStrip;
-    glUseProgram(lineProgram(technique, strip, tiles_.found()).name());
     const auto lines = static_cast<GLuint>(usedEdge_);
     const GLuint strips = parts(lines, strip);
-    glUniform2i(0, 1, 0);
-    if (tiles_.found())
-        dispatchTiles(textures_[0].name(), 1, FilterTiles::Pass::rows);
-    else
-        dispatch(textures_[0].name(), 1, 0, parts(strips, kGroup), lines);
-    glUniform2i(0, 0, 1);
-    if (tiles_.found())
-        dispatchTiles(textures_[1].name(), 0, FilterTiles::Pass::columns);
-    else
-        dispatch(textures_[1].name(), 0, 0, parts(lines, kGroup), strips);
+    const std::array rows{parts(strips, kGroup), lines}, columns{parts(lines, kGroup), strips};
+    if (tiles_.listsLines()) tiles_.listLines(rows, columns);
+    filterLine(technique, strip, FilterTiles::Pass::rows, rows);
+    filterLine(technique, strip, FilterTiles::Pass::columns, columns);
+}
+
+void MapFilter::filterLine(const Technique& technique, GLuint strip, FilterTiles::Pass pass,
+                           std::array<GLuint, 2> groups) {
+    const bool rows = pass == FilterTiles::Pass::rows;
+    bind(textures_[rows ? 0 : 1].name(), rows ? 1 : 0, 0);
+    const auto use = [&](bool listed) {
+        glUseProgram(lineProgram(technique, strip, listed).name());
+        glUniform2i(0, rows ? 1 : 0, rows ? 0 : 1);
+    };
+    use(false);
+    if (tiles_.listsLines()) {
+        tiles_.dispatchWhole(pass);
+        use(true);
+        tiles_.dispatch(pass);
+    } else {
+        glDispatchCompute(groups[0], groups[1], static_cast<GLuint>(usedLayers_));
+    }
+    waitForTexels();
 }
 
 void MapFilter::addMips(int levels) {

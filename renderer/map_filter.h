@@ -39,12 +39,12 @@ class MapFilter {
     /// Filters the N x N depths in the corner of `depths`, which has several samples where the
     /// technique's parameters say so. `shadow` has to be bound as the shadow
     /// block. `spareN`: textures are at least as large as for that N, so that smaller maps need no
-    /// new ones; nor does a map of fewer layers, where the technique has layers. With `seen` a
-    /// separable kernel may leave out what that does not look up. Throws std::runtime_error where
-    /// the driver has no room.
+    /// new ones; nor does a map of fewer layers, where the technique has layers. A separable kernel
+    /// leaves out what `leave` says; of a map with several samples no penumbrae are found. Throws
+    /// std::runtime_error where the driver has no room.
     void run(const Technique& technique, const ParameterValues& parameters,
              const f32::ShadowConstants& shadow, const Texture& depths, int spareN,
-             const VisibleSurfaces* seen = nullptr);
+             LeftOut leave = {});
 
     GLuint map() const { return textures_[0].name(); }
     FilteredTexels read() const;  ///< the last map
@@ -65,6 +65,9 @@ class MapFilter {
                   GLuint groupsY) const;
     /// The tiles that a pass has to do, where they were found.
     void dispatchTiles(GLuint source, std::size_t target, FilterTiles::Pass pass) const;
+    /// One of the passes along lines, of groups in x and y where all of the map is done.
+    void filterLine(const Technique& technique, GLuint strip, FilterTiles::Pass pass,
+                    std::array<GLuint, 2> groups);
     void filterLines(const Technique& technique, const f32::ShadowConstants& shadow);
     void addMips(int levels);
     void sumUp();

@@ -70,7 +70,7 @@ FilteredTexels Renderer::readFilteredMap(std::size_t view) {
         served_.at(view).empty())
         return {};
     bindConstants(view);
-    filterMap(*lastTechnique_, view, nullptr);
+    filterMap(*lastTechnique_, view, {});
     return mapFilter_.read();
 }
 

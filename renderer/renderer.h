@@ -53,6 +53,9 @@ struct FrameSettings {
     /// Filters the whole map, as it otherwise may not where nothing that is seen looks it up; the
     /// picture is the same.
     bool filterUnseen = false;
+    /// Filters a map also where nothing can lie in a penumbra (filter_tiles.h), as it otherwise may
+    /// not.
+    bool filterOutsidePenumbrae = false;
     /// Draws the triangles too that lie outside a map or the view, as it otherwise does not; maps
     /// and picture are the same.
     bool drawOutside = false;
@@ -156,7 +159,7 @@ class Renderer {
     /// What the lookup reads of one of lightViews(), filtered once more as a whole; empty after a
     /// technique without prefilter and for a map that serves no pixel.
     FilteredTexels readFilteredMap(std::size_t view = 0);
-    /// Share of the tiles that the prefilter of the frame's last map had to do.
+    /// Share of the tiles that the prefilter of the frame's last map had to do along lines.
     double readFilteredShare() const { return mapFilter_.readShare(); }
     FloatImage readPositions();  ///< 4 channels: relative to the eye; w 0 is sky
     FloatImage readPlanes();     ///< 4 channels: unit normal of the triangle
@@ -194,7 +197,7 @@ class Renderer {
     void drawShadows(const FrameSettings& settings, const Technique& technique, std::size_t view,
                      float weight, PassClock* clock);
     /// What the technique's prefilter makes of a view's map, or of what of it `seen` looks up.
-    void filterMap(const Technique& technique, std::size_t view, const VisibleSurfaces* seen);
+    void filterMap(const Technique& technique, std::size_t view, const LeftOut& leave);
     void drawLookup(const Technique& technique, std::size_t view, float weight);
     /// Enters the layers that the map asks for into the shadow block of a layered technique.
     void enterLayers(const Technique& technique, const ParameterValues& asked, std::size_t view);

@@ -32,6 +32,12 @@ constexpr TechniqueParameter kGaussian{
     .meaning = "prefilter: 0 a box, 1 a Gaussian, of the disc's standard deviation",
     .whole = true};
 
+/// Of a filtered map, whose kernel holds depths before and behind the receiver's own on a sloped
+/// plane: a whole reach keeps every plane lit, and takes a shadow away as far from the caster's foot
+/// as a slope rises by it, which at grazing light is most of a small shadow. So moments, which tell a
+/// plane from two depths nearly, take as little as leaves planes of the built-in scenes lit to the
+/// eye; what is left on the steepest ones is `steepDarkening`. (RMSE against the full disc over the
+/// terrain at N = 1024: EVSM4 .17 at a whole reach and .11 at a quarter, MSM .18 and .13 at 3/8.)
 constexpr TechniqueParameter biasReaches(float standard) {
     return {
         .name = "bias_reaches",
@@ -281,7 +287,7 @@ constexpr TechniqueParameter kLeastDeviation{
 constexpr TechniqueParameter kEvsm2Parameters[] = {kBiasTexels, kGaussian, kPositiveExponent,
                                                    kLeastDeviation, kMapSamples};
 constexpr TechniqueParameter kEvsm4Parameters[] = {kBiasTexels,
-                                                   biasReaches(1),
+                                                   biasReaches(0.25F),
                                                    kGaussian,
                                                    kPositiveExponent,
                                                    {.name = "negative_exponent",
@@ -298,7 +304,7 @@ struct MomentParameters {
 };
 constexpr MomentParameters momentParameters(float depthBias, float momentBias) {
     return {{kBiasTexels,
-             biasReaches(1),
+             biasReaches(0.375F),
              biasDepth(depthBias),
              kGaussian,
              {.name = "moment_bias",
@@ -364,7 +370,7 @@ constexpr TechniqueParameter kLayerDeviation{
 
 constexpr TechniqueParameter kLayerParameters[] = {
     kBiasTexels,
-    biasReaches(1),
+    biasReaches(0.75F),
     kGaussian,
     depthLayers(0),
     kLayerDeviation,
@@ -551,6 +557,7 @@ constexpr Technique kTechniques[] = {
      .format = MapFormat::rgba32f,
      .prefilter = Prefilter::mean,
      .parameters = kEvsm4Parameters,
+     .steepDarkening = 0.01F,
      .cost = kSeparableCost},
     {.name = "msm",
      .title = "Moments, 32 bits",
@@ -559,6 +566,7 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::mean,
      .parameters = kMoments32.all,
      .planeDarkening = kMomentDarkening,
+     .steepDarkening = 0.25F,
      .cost = kSeparableCost},
     {.name = "msm16",
      .title = "Moments, 16 bits",
@@ -567,6 +575,7 @@ constexpr Technique kTechniques[] = {
      .prefilter = Prefilter::mean,
      .parameters = kMoments16.all,
      .planeDarkening = kMomentDarkening,
+     .steepDarkening = 0.02F,
      .cost = kSeparableCost},
     {.name = "csm",
      .title = "Convolution",
@@ -585,6 +594,7 @@ constexpr Technique kTechniques[] = {
      .termsParameter = "layers",
      .parameters = kLayerParameters,
      .planeDarkening = 1e-6F,  // rounding of a full layer before the receiver's
+     .steepDarkening = 0.2F,
      .cost = "4 texels a pixel and two layers; the prefilter that of a map for every two layers"},
     {.name = "power_cdf",
      .title = "Power CDF, 32 bits",

@@ -199,7 +199,10 @@ TEST(LampFrame, GpuAgreesWithCpuOnLampsMaps) {
     constexpr int kN = 128;
     for (std::size_t row = 0; row < renderer::techniques().size(); row += kStep) {
         const Technique& technique = renderer::techniques()[row];
-        frame.render({.technique = &technique, .resolution = kN, .radiusUv = 0.01F});
+        frame.render({.technique = &technique,
+                      .resolution = kN,
+                      .radiusUv = 0.01F,
+                      .filterOutsidePenumbrae = true});
         for (const std::size_t light : {1U, 2U}) {
             const FloatImage gpu = frame.readVisibility(light);
             double texels = kN;  // of the narrowest of the light's kernels
@@ -222,7 +225,10 @@ TEST(CascadeFrame, GpuAgreesWithCpuOnCascades) {
         const Technique& technique = renderer::findTechnique(name);
         constexpr int kN = 160;
         const float radius = 0.01F;
-        frame.render({.technique = &technique, .resolution = kN, .radiusUv = radius});
+        frame.render({.technique = &technique,
+                      .resolution = kN,
+                      .radiusUv = radius,
+                      .filterOutsidePenumbrae = true});
         const FloatImage gpu = frame.readVisibility();
         double texels = kN;
         for (std::size_t view = 0; view < 3; ++view)

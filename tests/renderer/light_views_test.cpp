@@ -86,6 +86,44 @@ TEST(LampViews, DepthIsLinearAlongTheAxisAndUvAProjection) {
     }
 }
 
+// Whatever a face can hold of the casters keeps its place between the planes, with no more between
+// them than there is; and all faces count depth alike.
+TEST(LampViews, DepthsAreFittedToTheCasters) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> any(0, 1);
+    const renderer::Bounds casters{{-1, 0, -2}, {2, 1, 1}};
+    const auto within = [&](int axis) {
+        return std::lerp(static_cast<double>(casters.low[axis]),
+                         static_cast<double>(casters.high[axis]), any(random));
+    };
+    for (const glm::vec3 at : {glm::vec3(0, 0.5F, 0), {0, 3, 0}, {6, 2, 5}}) {
+        const Lamp lamp{.kind = Lamp::Kind::point, .position = at};
+        std::vector<LightView> faces = lampViews(lamp, 1);
+        for (LightView& face : faces) fitLampDepth(face.window, casters);
+        for (const LightView& face : faces) {
+            EXPECT_EQ(face.window.nearM, faces.front().window.nearM);
+            EXPECT_EQ(face.window.depthRangeM, faces.front().window.depthRangeM);
+            EXPECT_GE(face.window.nearM, static_cast<double>(lamp.nearM));
+            EXPECT_LT(face.window.depthRangeM, 12);
+            for (int i = 0; i < 2000; ++i) {
+                const glm::dvec3 point(within(0), within(1), within(2));
+                const glm::dvec4 h = face.window.shadowFromWorld * glm::dvec4(point, 1);
+                const glm::dvec2 uv = glm::dvec2(h) / h.w;
+                if (h.w < static_cast<double>(lamp.nearM) ||
+                    glm::any(glm::greaterThan(glm::abs(uv - 0.5), glm::dvec2(0.5))))
+                    continue;
+                EXPECT_GE(h.z, 0);
+                EXPECT_LE(h.z, 0.85);
+                EXPECT_NEAR(h.z * face.window.depthRangeM + face.window.nearM, h.w, 1e-9);
+            }
+        }
+    }
+    const Lamp near{.position = {0, 3, 0}, .farM = 1.5F};  // reaches none of them
+    LightView view = lampViews(near, 1).front();
+    fitLampDepth(view.window, casters);
+    EXPECT_EQ(view.window.nearM + view.window.depthRangeM, 1.5);
+}
+
 TEST(LampViews, RefusesLampsThatCannotBeDrawn) {
     EXPECT_EQ(renderer::validate(Lamp{}), "");
     EXPECT_THAT(renderer::validate(Lamp{.coneDeg = 0}), HasSubstr("coneDeg is 0"));

@@ -238,7 +238,8 @@ TEST(GradientShadowMap, AverageGradientDarkensConcaveCornersLessUnderANarrowKern
 }
 
 // METHODS: in distances from a light of radius l (uv of the near plane) the penumbra's radius is l
-// (d - b) / b x n / d. Under one blocker depth the result is the full disc's of that radius.
+// (d - b) / b x n / d. In the middle of the depth range it is the sun's, wherever the near plane
+// is. Under one blocker depth the result is the full disc's of that radius.
 TEST(Pcss, PenumbraOfALampFollowsTheDistancesFromIt) {
     const Technique& pcss = renderer::findTechnique("pcss");
     const Technique& disc = renderer::findTechnique("pcf_disc");
@@ -246,13 +247,15 @@ TEST(Pcss, PenumbraOfALampFollowsTheDistancesFromIt) {
     setParameter(pcss, parameters, "search_taps", 256);
     const double distance = static_cast<double>(parameters[*pcss.parameterSlot("distance")]);
     const Map map = halfPlane(64, 20, 0.3, 0.4, 1);
-    for (const double nearest : {0.1, 1.0, 1e6}) {
+    for (const double nearest : {0.01, 0.1, 1.0, 1e6}) {
         const double farthest = nearest + 3;
         const double blocker = nearest + 0.4 * 3;
         const double receiver = nearest + 0.9 * 3;
         constexpr double kSoftness = 0.08;
-        const double lamp = kSoftness / distance * nearest / 3;  // l = t / s
+        const double middle = nearest + 1.5;
+        const double lamp = kSoftness / distance * middle * middle / 3 / nearest;
         const double expected = lamp * (receiver - blocker) / blocker * nearest / receiver;
+        ASSERT_LT(expected, kSoftness / distance);
         auto constants = constantsFor(pcss, 64, kSoftness, parameters);
         constants.map.w = (farthest - nearest) / nearest;
         const CpuTechnique<double> soft(pcss, map, constants, Storage::exact);

@@ -91,7 +91,7 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
             row.share = frame.readFilteredShare();
             row.bytes = frame.mapBytes();
             renderer::FrameSettings whole = settings;
-            whole.filterUnseen = true;
+            whole.filterUnseen = whole.filterOutsidePenumbrae = true;
             whole.drawOutside = true;
             drawn = frame.drawnTriangles();
             frame.render(whole, &clock);

@@ -2,29 +2,21 @@
 // Percentage-closer soft shadows: the kernel is as wide as the penumbra of an area light, from how far before the
 // receiver the blockers lie. Hard at contacts.
 //
-// Source: R. Fernando, "Percentage-closer soft shadows", SIGGRAPH 2005 sketches. In distances from the light, n of the
-// near plane, b of the blockers' mean and d of the receiver, and with a light of radius l in uv of the near plane,
-// blockers are looked for within l (d - n) / d and the penumbra's radius is l (d - b) / b x n / d. With z = (distance -
-// n) / (far - n), spread s = (far - n) / n and softness t = l s that is
-//   t z / (1 + s z)   and   t (z - zb) / ((1 + s zb) (1 + s z)),
-// which also holds for the sun, a disc at infinity: s = 0 and t the tangent of its angular radius, in units of the map.
-// A blocker before the near plane lies on it: zb >= 0.
+// Source: R. Fernando, "Percentage-closer soft shadows", SIGGRAPH 2005 sketches; shared/penumbra_estimate.glsl. A
+// blocker before the near plane lies on it.
 // Map: linear light depth, 0 near. Reads search_taps texels and those of the full disc of the radius found.
-// Parameters: bias_texels (shared/depth_compare.glsl); distance: t is the kernel's radius over it, so that a blocker at
-// that share of the depth range before the receiver throws a penumbra of the kernel's radius under the sun, and less
-// under a light that is near; search_taps.
+// Parameters: bias_texels (shared/depth_compare.glsl); distance: a blocker at that share of the depth range before the
+// receiver throws a penumbra of the kernel's radius, under a lamp in the middle of its range; search_taps.
 
 SHARED_FUNCTION real penumbraRadiusUv(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {
     PlaneCompare plane = planeCompare(receiver, shadow, PARAMETER_bias_texels);
     real softness = shadow.kernel.x / PARAMETER_distance;
-    real spread = shadow.map.w;
-    real receiverSpread = real(1.0) + spread * max(receiver.depth, real(0.0));
     // As far as the nearest possible blocker's penumbra reaches, and never less than the texel itself.
-    real search = clamp(softness * receiver.depth / receiverSpread, real(0.5) * shadow.map.y, real(1.0));
+    real search = clamp(softness * penumbraOfGap(receiver.depth, receiver.depth, shadow), real(0.5) * shadow.map.y,
+                        real(1.0));
     if (!reachesMap(receiver.uv, search)) return real(-1.0);
     int n = int(PARAMETER_search_taps);
     real gaps = real(0.0);
-    real depths = real(0.0);
     real blockers = real(0.0);
     for (int i = 0; i < n; ++i) {
         real2 texel = floor((receiver.uv + vogelTap(i, n) * search) * shadow.map.x);
@@ -36,12 +28,11 @@ SHARED_FUNCTION real penumbraRadiusUv(sampler2D map, ShadowReceiver receiver, Sh
         real gap = planeDepth(plane, index.x, index.y) - blocker;
         if (gap > real(0.0)) {
             gaps += gap;
-            depths += blocker;
             blockers += real(1.0);
         }
     }
     if (blockers == real(0.0)) return real(-1.0);
-    return softness * (gaps / blockers) / ((real(1.0) + spread * (depths / blockers)) * receiverSpread);
+    return softness * penumbraOfGap(gaps / blockers, receiver.depth, shadow);
 }
 
 SHARED_FUNCTION real filterVisibility(sampler2D map, ShadowReceiver receiver, ShadowConstants shadow) {

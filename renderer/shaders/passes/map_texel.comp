@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From the depth of the casters to what the technique stores of it, guard band included. An invocation does eight texels
 // of a column, so that the depths of neighbours are read once. SAMPLED: the map has several depths in a texel, whose
-// stored values are joined as the prefilter joins texels (PREFILTER: a Prefilter of technique.h).
+// stored values are joined as the prefilter joins texels (PREFILTER: a Prefilter of technique.h). MARKS_GAPS: the tiles
+// are marked in which the kernel may meet two surfaces, one before the other.
 #ifdef SAMPLED
 #define DEPTH_SAMPLER sampler2DMS
 #endif
@@ -50,15 +51,44 @@ void convert(ivec2 texel) {
     imageStore(stored, ivec3(texel, layer), STORED_TEXEL(value, shadow));
 }
 
+#ifdef MARKS_GAPS
+layout(std430, binding = 2) writeonly buffer Gaps { uint gaps[]; };
+layout(location = 3) uniform ivec2 grid;  // tilesEdge, texels that the kernel reaches to either side
+
+// Of the eight: the first and the last that have a gap.
+ivec2 gap = ivec2(8, -1);
+
+void noteGap(ivec2 first, int k) {
+    if (hasGap(depthMap, first + ivec2(0, k), shadow)) gap = ivec2(min(gap.x, k), k);
+}
+
+void markGap(ivec2 first) {
+    if (gap.y < 0 || gl_GlobalInvocationID.z > 0u) return;
+    ivec2 low = max(first + ivec2(0, gap.x) - grid.y, ivec2(0)) / TILE;
+    ivec2 high = min((first + ivec2(0, gap.y) + grid.y) / TILE, ivec2(grid.x - 1));
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) gaps[y * grid.x + x] = 1u;
+}
+#else
+void noteGap(ivec2 first, int k) {}
+void markGap(ivec2 first) {}
+#endif
+
+void convert(ivec2 first, int k) {
+    convert(first + ivec2(0, k));
+    noteGap(first, k);
+}
+
 void main() {
     ivec2 first = firstTexel();
     // Written out: where a driver leaves a loop as it is it reads every neighbour again.
-    convert(first);
-    convert(first + ivec2(0, 1));
-    convert(first + ivec2(0, 2));
-    convert(first + ivec2(0, 3));
-    convert(first + ivec2(0, 4));
-    convert(first + ivec2(0, 5));
-    convert(first + ivec2(0, 6));
-    convert(first + ivec2(0, 7));
+    convert(first, 0);
+    convert(first, 1);
+    convert(first, 2);
+    convert(first, 3);
+    convert(first, 4);
+    convert(first, 5);
+    convert(first, 6);
+    convert(first, 7);
+    markGap(first);
 }

@@ -5,7 +5,7 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2D positions;
-layout(std430, binding = 0) writeonly buffer Marks { uint marks[]; };
+layout(std430, binding = 0) writeonly buffer Seen { uint seen[]; };
 
 layout(location = 0) uniform ivec4 pixels;  // xy of the first, zw how many
 layout(location = 1) uniform int tilesEdge;
@@ -29,8 +29,8 @@ void main() {
     ivec2 low = ivec2(clamp(place - reach, vec2(0.0), vec2(last))) / TILE;
     ivec2 high = ivec2(clamp(place + reach, vec2(0.0), vec2(last))) / TILE;
     // No wider than a tile: costsMoreThanItSaves() of filter_tiles.h.
-    marks[low.y * tilesEdge + low.x] = 1u;
-    marks[low.y * tilesEdge + high.x] = 1u;
-    marks[high.y * tilesEdge + low.x] = 1u;
-    marks[high.y * tilesEdge + high.x] = 1u;
+    seen[low.y * tilesEdge + low.x] = 1u;
+    seen[low.y * tilesEdge + high.x] = 1u;
+    seen[high.y * tilesEdge + low.x] = 1u;
+    seen[high.y * tilesEdge + high.x] = 1u;
 }

@@ -3,7 +3,7 @@
 // (filter_tiles.h).
 
 layout(std430, binding = 1) readonly buffer TileLists {
-    uvec4 commands[3];  // of an indirect dispatch; w tiles in the list
+    uvec4 commands[5];  // of an indirect dispatch; w tiles in the list
     uint tiles[];       // x, y in 16 bits each
 };
 

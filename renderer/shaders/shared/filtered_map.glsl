@@ -79,6 +79,28 @@ SHARED_FUNCTION real kernelReach(ShadowConstants shadow) {
     return shadow.prefilter.x * (gaussian ? real(3.0) : real(1.7320508075688772));
 }
 
+// How far a surface may bend away from its tangent within the kernel's reach, in widths of a texel; and what rounding
+// adds, in units of depth.
+const real kMostBend = real(0.25);
+const real kBendOfRounding = real(1e-6);
+
+// Whether at this texel one surface ends before another, seen from the light, or bends by as much: only there a kernel
+// holds depths in front of a receiver and behind it that are not of the receiver's own plane. A slope is no gap,
+// however steep.
+SHARED_FUNCTION bool hasGap(DEPTH_SAMPLER depthMap, int2 texel, ShadowConstants shadow) {
+    real here = casterDepth(depthMap, texel, 0, shadow);
+    real across = casterDepth(depthMap, texel + int2(1, 0), 0, shadow) +
+                  casterDepth(depthMap, texel - int2(1, 0), 0, shadow) - real(2.0) * here;
+    real along = casterDepth(depthMap, texel + int2(0, 1), 0, shadow) +
+                 casterDepth(depthMap, texel - int2(0, 1), 0, shadow) - real(2.0) * here;
+    // A lamp's texels are wider the farther away.
+    real distance = shadow.scale.w != real(0.0) ? shadow.scale.x + here * shadow.scale.y : real(1.0);
+    real texelWidth = shadow.scale.z * shadow.map.y * distance / shadow.scale.y;
+    real reach = max(kernelReach(shadow), real(1.0));
+    real most = real(2.0) * kMostBend * texelWidth / (reach * reach) + kBendOfRounding;
+    return max(abs(across), abs(along)) > most;
+}
+
 // Texels to either side of the middle one that the kernel touches.
 SHARED_FUNCTION int kernelTaps(ShadowConstants shadow) { return int(ceil(max(kernelReach(shadow) - real(0.5), real(0.0)))); }
 

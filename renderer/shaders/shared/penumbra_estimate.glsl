@@ -1,10 +1,29 @@
 // SPDX-License-Identifier: MIT
 // The radius of a penumbra from means over the widest kernel, without looking at one blocker. Needs receiver.glsl, depth_compare.glsl
 // and taps.glsl.
-// B. Yang, Z. Dong, J. Feng, H.-P. Seidel, J. Kautz, "Variance soft shadow mapping", 2010, equations 3 to 5: what lies
+//
+// From the gap to the radius: R. Fernando, "Percentage-closer soft shadows", SIGGRAPH 2005 sketches. In distances from
+// a light of radius l m, b of the blocker and d of the receiver, the penumbra's radius is l (d - b) / (b d) on a map that
+// is 1 m wide at 1 m. With depths z = (distance - n) / range, s = range / n, and l such that in the middle of the range a
+// gap makes the same radius as under the sun, whose penumbrae grow with the gap alone (s = 0), that is the gap times
+//   (1 + s/2)^2 / ((1 + s zb) (1 + s z)).
+// So it does not depend on where the near plane is.
+//
+// From means to the gap: B. Yang, Z. Dong, J. Feng, H.-P. Seidel, J. Kautz, "Variance soft shadow mapping", 2010, equations 3 to 5: what lies
 // before the receiver has the mean z_b, the rest lies at the receiver d, and Chebyshev's bound p is the rest's share:
 // mean = p d + (1 - p) z_b, so d - z_b = (d - mean) / (1 - p) = (d - mean) + variance / (d - mean).
 // Exact for a planar occluder over a parallel receiver.
+
+// In radii of a penumbra of the whole depth range under the sun. No wider than one, for a lamp: that near to it a
+// blocker is larger than what the search could find.
+SHARED_FUNCTION real penumbraOfGap(real gap, real depth, ShadowConstants shadow) {
+    real spread = shadow.map.w;
+    if (!(spread > real(0.0))) return gap;
+    real middle = real(1.0) + real(0.5) * spread;
+    real blocker = real(1.0) + spread * max(depth - gap, real(0.0));
+    real receiver = real(1.0) + spread * max(depth, real(0.0));
+    return min(gap * (middle / blocker) * (middle / receiver), real(1.0));
+}
 
 // Distance of the receiver from the mean of what lies before it; 0 where nothing does.
 SHARED_FUNCTION real gapToBlockers(real mean, real meanSquare, real depth, real leastVariance) {
@@ -14,9 +33,9 @@ SHARED_FUNCTION real gapToBlockers(real mean, real meanSquare, real depth, real 
     return clamp(beyond + variance / beyond, real(0.0), real(1.0));
 }
 
-// The sun's penumbra: a blocker at `distance` before the receiver throws one of the kernel's radius.
 SHARED_FUNCTION real radiusOfGap(real gap, real distance, ShadowReceiver receiver, ShadowConstants shadow) {
-    return shownRadiusUv(min(shadow.kernel.x * gap / distance, real(1.0)), receiver, shadow);
+    real radius = shadow.kernel.x / distance * penumbraOfGap(gap, receiver.depth, shadow);
+    return shownRadiusUv(min(radius, real(1.0)), receiver, shadow);
 }
 
 // The widest one: no blocker lies farther before the receiver than the light does. As in prefilterConstants().
@@ -43,5 +62,6 @@ SHARED_FUNCTION real estimatedRadiusUv(sampler2D map, ShadowReceiver receiver, r
         meanSquare += caster * caster;
     }
     real gap = gapToBlockers(mean / real(kEstimateTaps), meanSquare / real(kEstimateTaps), depth, leastVariance);
-    return gap > real(0.0) ? min(shadow.kernel.x * gap / distance, real(1.0)) : real(-1.0);
+    real radius = shadow.kernel.x / distance * penumbraOfGap(gap, receiver.depth, shadow);
+    return gap > real(0.0) ? min(radius, real(1.0)) : real(-1.0);
 }
