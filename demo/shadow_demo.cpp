@@ -59,6 +59,9 @@ void listTechniques() {
         if (technique.planeDarkening > 0)
             std::printf("  a plane may darken itself by %.2g\n",
                         static_cast<double>(technique.planeDarkening));
+        if (technique.steepDarkening > technique.planeDarkening)
+            std::printf("  a steep plane under a wide kernel by up to %.2g\n",
+                        static_cast<double>(technique.steepDarkening));
         for (const renderer::TechniqueParameter& parameter : technique.parameters)
             std::printf("  %s=%s\t%s, %s\n", std::string(parameter.name).c_str(),
                         valueText(parameter, parameter.standard).c_str(),
