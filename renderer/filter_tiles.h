@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Which tiles of a filtered map the prefilter does. It leaves out those that no visible surface looks
-// up (the camera does not see it, it is turned away from the light, another map serves it), and those
-// in which nothing can lie in a penumbra: the kernel meets one surface there, or several of which none
-// ends before another. Such a tile holds what its texels store, unfiltered. Found on the GPU, from the
-// prepass and from the depths, and used there by indirect dispatch: nothing waits.
+// Which tiles of a filtered map the prefilter does. It leaves out those that no visible surface
+// looks up (the camera does not see it, it is turned away from the light, another map serves it),
+// and those in which nothing can lie in a penumbra: the kernel meets one surface there, or several
+// of which none ends before another. Such a tile holds what its texels store, unfiltered. Found on
+// the GPU, from the prepass and from the depths, and used there by indirect dispatch: nothing
+// waits.
 #pragma once
 
 #include <array>
@@ -43,25 +44,25 @@ class FilterTiles {
     /// Compiles what start() needs; throws std::runtime_error where it does not compile.
     void prepare();
 
-    /// For the map whose constants are bound: finds what is seen. What of `leave` costs more than it
-    /// saves, by the sizes alone, is not left out. `spreadTexels`: between a receiver's place on the
-    /// map and the lookups around it.
+    /// For the map whose constants are bound: finds what is seen. What of `leave` costs more than
+    /// it saves, by the sizes alone, is not left out. `spreadTexels`: between a receiver's place on
+    /// the map and the lookups around it.
     void start(const f32::ShadowConstants& shadow, int layers, LeftOut leave, float spreadTexels);
     /// From now on all tiles.
     void forget();
 
     /// Whether the pass over texels has a list; then its program is that with LISTED.
     bool listsTexels() const { return listsTexels_; }
-    /// Where the pass over texels marks gaps, or that it marks none, for the program with MARKS_GAPS
-    /// that is in use.
+    /// Where the pass over texels marks gaps, or that it marks none, for the program with
+    /// MARKS_GAPS that is in use.
     void bindGaps() const;
 
     /// Once the texels are done: `rows` and `columns` are the groups, in x and y, of passes that do
     /// the whole map.
     void listLines(std::array<GLuint, 2> rows, std::array<GLuint, 2> columns);
-    /// Whether the passes along lines have lists. Each is then called twice, by dispatch() with the
-    /// program with LISTED and by dispatchWhole() with the other: the GPU knows which is faster, and
-    /// one of them does nothing.
+    /// Whether the passes along lines have lists. Each is then called twice, by dispatch() with
+    /// the program with LISTED and by dispatchWhole() with the other: the GPU knows which is
+    /// faster, and one of them does nothing.
     bool listsLines() const { return listsTexels_ || marksGaps_; }
 
     /// A group for every tile of the pass in every layer; the program in use includes

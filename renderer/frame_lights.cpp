@@ -66,7 +66,7 @@ void Renderer::fitViews() {
     const std::size_t firstOfLamps = fitted.size();
     for (std::size_t lamp = 0; lamp < scene_.lamps.size(); ++lamp)
         for (LightView& view : lampViews(scene_.lamps[lamp], lamp + 1)) {
-            fitLampDepth(view.window, scene_.casters);
+            fitLampDepth(view.window, scene_.casters, surfaces_);
             fitted.push_back(std::move(view));
         }
     lampSteps_.resize(fitted.size() - firstOfLamps);

@@ -105,13 +105,16 @@ std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light) {
     return faces;
 }
 
-void fitLampDepth(ShadowWindow& window, const Bounds& casters) {
+void fitLampDepth(ShadowWindow& window, const Bounds& casters, const Bounds& surfaces) {
     // Room for receivers behind the farthest caster, so that a depth near 1 is told from it.
     constexpr double kRoomBehind = 1.25;
     const glm::dvec3 at = *window.lampAt;
     const glm::dvec3 low(casters.low), high(casters.high);
     if (!glm::all(glm::lessThanEqual(low, high))) return;
-    const double nearest = glm::distance(at, glm::clamp(at, low, high));
+    // Ground that is no caster is drawn too: cut away before it, the map would hold nothing there.
+    const double nearest = glm::distance(
+        at, glm::clamp(at, glm::min(low, glm::dvec3(surfaces.low)),
+                       glm::max(high, glm::dvec3(surfaces.high))));
     const double farthest = glm::length(glm::max(glm::abs(low - at), glm::abs(high - at)));
     // In the corner of the map a distance along its axis is the least share of the whole one.
     const double halfWidth = 0.5 * window.extentM;

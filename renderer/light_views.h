@@ -36,10 +36,10 @@ void checkLights(int cascades, std::span<const Lamp> lamps);
 /// std::invalid_argument for a lamp that cannot be drawn.
 std::vector<LightView> lampViews(const Lamp& lamp, std::size_t light);
 
-/// The depths of one of them, to those of the casters and somewhat behind them, the same for all
-/// faces of a point: what lies behind is clamped, as under the sun. Left alone where no caster is
-/// between nearM and farM.
-void fitLampDepth(ShadowWindow& window, const Bounds& casters);
+/// The depths of one of them: from the nearest of the scene's surfaces to the farthest caster and
+/// somewhat behind it, the same for all faces of a point. What lies farther is as a cleared map.
+/// Left alone where that is nothing of what is between nearM and farM.
+void fitLampDepth(ShadowWindow& window, const Bounds& casters, const Bounds& surfaces);
 
 /// One of them to what narrowLampWindow() finds, with the same blur in the scene.
 void narrowLampView(LightView& view, const Bounds& casters, const ConvexBody& seen,

@@ -50,11 +50,11 @@ struct FrameSettings {
     float radiusUv = 0;     ///< kernel radius as a fraction of the map's extent, 0 .. 1
     float minRadiusUv = 0;  ///< least radius where a texel is larger than a pixel, 0 .. 1
     bool lit = true;        ///< false leaves the lit pass out
-    /// Filters the whole map, as it otherwise may not where nothing that is seen looks it up; the
+    /// Filters a map also where nothing that is seen looks it up, as it otherwise may not; the
     /// picture is the same.
     bool filterUnseen = false;
     /// Filters a map also where nothing can lie in a penumbra (filter_tiles.h), as it otherwise may
-    /// not.
+    /// not; the picture is the same to the eye.
     bool filterOutsidePenumbrae = false;
     /// Draws the triangles too that lie outside a map or the view, as it otherwise does not; maps
     /// and picture are the same.
@@ -196,7 +196,7 @@ class Renderer {
     /// Of one view: depth pass, prefilter and lookup, added to the visibility with the weight.
     void drawShadows(const FrameSettings& settings, const Technique& technique, std::size_t view,
                      float weight, PassClock* clock);
-    /// What the technique's prefilter makes of a view's map, or of what of it `seen` looks up.
+    /// What the technique's prefilter makes of a view's map, but for what is left out.
     void filterMap(const Technique& technique, std::size_t view, const LeftOut& leave);
     void drawLookup(const Technique& technique, std::size_t view, float weight);
     /// Enters the layers that the map asks for into the shadow block of a layered technique.

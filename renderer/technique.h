@@ -106,8 +106,8 @@ struct Technique {
     std::span<const TechniqueParameter> parameters;
     std::span<const Exemption> doNotHold = {};
     float planeDarkening = 0;  ///< most that a plane along the map darkens itself, of 1
-    /// Likewise for a plane whose depth changes by a twelfth of the range under the kernel and the
-    /// texels around it, as none of a built-in scene does at N = 64 and more.
+    /// Likewise for a plane whose depth changes by up to a seventh of the range under the kernel
+    /// and the texel around it, as none of a built-in scene does at N = 64 and more.
     float steepDarkening = planeDarkening;
     std::string_view cost;
 

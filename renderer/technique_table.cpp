@@ -32,12 +32,13 @@ constexpr TechniqueParameter kGaussian{
     .meaning = "prefilter: 0 a box, 1 a Gaussian, of the disc's standard deviation",
     .whole = true};
 
-/// Of a filtered map, whose kernel holds depths before and behind the receiver's own on a sloped
-/// plane: a whole reach keeps every plane lit, and takes a shadow away as far from the caster's foot
-/// as a slope rises by it, which at grazing light is most of a small shadow. So moments, which tell a
-/// plane from two depths nearly, take as little as leaves planes of the built-in scenes lit to the
-/// eye; what is left on the steepest ones is `steepDarkening`. (RMSE against the full disc over the
-/// terrain at N = 1024: EVSM4 .17 at a whole reach and .11 at a quarter, MSM .18 and .13 at 3/8.)
+/// Of PCF kHollowReaches; of a filtered map, whose kernel holds depths before and behind the
+/// receiver's own on a sloped plane: a whole reach keeps every plane lit, and takes a shadow away
+/// as far from the caster's foot as a slope rises by it, which at grazing light is most of a small
+/// shadow. So moments, which nearly tell a plane from two depths, take as little as leaves planes
+/// of the built-in scenes lit to the eye; what is left on the steepest ones is `steepDarkening`.
+/// (RMSE against the full disc over the terrain at N = 1024: EVSM4 .17 at a whole reach and .11 at
+/// a quarter, MSM .18 and .13 at 3/8.)
 constexpr TechniqueParameter biasReaches(float standard) {
     return {
         .name = "bias_reaches",

@@ -71,10 +71,9 @@ inline constexpr SteepLookup kSteepLookups[] = {
     // (docs/results/technique-errors.md), here on either side.
     {"msm", 0.022},
     {"lvsm", 0.021},  // .0103: a layer stretches a part of the depths, and what is rounded off them
-    // .0086, a lamp's, whose depths span little more than its casters: of two squares that are
-    // nearly the same the difference is the variance.
-    {"vsm", 0.017},
-    {"pcss_mip", 0.0063},  // .0031
+    // .0031: of two squares that are nearly the same the difference is the variance.
+    {"vsm", 0.0063},
+    {"pcss_mip", 0.0063},
     {"pcss_sat", 0.0063},
     {"esm", 0.0018},  // .00030, evsm .00086: exponents multiply what is rounded off a depth
     {"evsm", 0.0018},

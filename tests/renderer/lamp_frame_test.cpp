@@ -210,10 +210,13 @@ TEST(LampFrame, GpuAgreesWithCpuOnLampsMaps) {
                 if (frame.lightViews()[view].light == light)
                     texels = std::min(
                         texels, kN * static_cast<double>(frame.shadowConstants(view).kernel.x));
+            tests::ImageLimits limits = tests::limitsAgainstCpu(technique, texels);
+            // A lamp's depths span little more than its casters: what they are off by counts for
+            // more than under the sun, .0086 under vsm.
+            limits.most = std::min(1.0, 3 * limits.most);
             tests::expectImagesAgree(
                 "lamp_" + std::to_string(light) + "_" + std::string(technique.name), gpu,
-                tests::cpuImage(frame, technique, light),
-                tests::limitsAgainstCpu(technique, texels));
+                tests::cpuImage(frame, technique, light), limits);
         }
     }
 }

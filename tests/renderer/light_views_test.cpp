@@ -92,6 +92,7 @@ TEST(LampViews, DepthsAreFittedToTheCasters) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> any(0, 1);
     const renderer::Bounds casters{{-1, 0, -2}, {2, 1, 1}};
+    const renderer::Bounds surfaces{{-50, -0.01F, -50}, {50, 1, 50}};
     const auto within = [&](int axis) {
         return std::lerp(static_cast<double>(casters.low[axis]),
                          static_cast<double>(casters.high[axis]), any(random));
@@ -99,7 +100,7 @@ TEST(LampViews, DepthsAreFittedToTheCasters) {
     for (const glm::vec3 at : {glm::vec3(0, 0.5F, 0), {0, 3, 0}, {6, 2, 5}}) {
         const Lamp lamp{.kind = Lamp::Kind::point, .position = at};
         std::vector<LightView> faces = lampViews(lamp, 1);
-        for (LightView& face : faces) fitLampDepth(face.window, casters);
+        for (LightView& face : faces) fitLampDepth(face.window, casters, surfaces);
         for (const LightView& face : faces) {
             EXPECT_EQ(face.window.nearM, faces.front().window.nearM);
             EXPECT_EQ(face.window.depthRangeM, faces.front().window.depthRangeM);
@@ -120,7 +121,7 @@ TEST(LampViews, DepthsAreFittedToTheCasters) {
     }
     const Lamp near{.position = {0, 3, 0}, .farM = 1.5F};  // reaches none of them
     LightView view = lampViews(near, 1).front();
-    fitLampDepth(view.window, casters);
+    fitLampDepth(view.window, casters, surfaces);
     EXPECT_EQ(view.window.nearM + view.window.depthRangeM, 1.5);
 }
 

@@ -247,21 +247,24 @@ TEST(Pcss, PenumbraOfALampFollowsTheDistancesFromIt) {
     setParameter(pcss, parameters, "search_taps", 256);
     const double distance = static_cast<double>(parameters[*pcss.parameterSlot("distance")]);
     const Map map = halfPlane(64, 20, 0.3, 0.4, 1);
-    for (const double nearest : {0.01, 0.1, 1.0, 1e6}) {
+    // The second receiver lies beyond the map's depths.
+    for (const auto& [nearest, depth] :
+         {std::pair{0.01, 0.9}, {0.1, 0.9}, {1.0, 0.9}, {1e6, 0.9}, {0.1, 1.5}, {1e6, 1.5}}) {
         const double farthest = nearest + 3;
         const double blocker = nearest + 0.4 * 3;
-        const double receiver = nearest + 0.9 * 3;
+        const double receiver = nearest + depth * 3;
         constexpr double kSoftness = 0.08;
         const double middle = nearest + 1.5;
         const double lamp = kSoftness / distance * middle * middle / 3 / nearest;
-        const double expected = lamp * (receiver - blocker) / blocker * nearest / receiver;
-        ASSERT_LT(expected, kSoftness / distance);
+        // No wider than what is searched for blockers.
+        const double expected = std::min(
+            lamp * (receiver - blocker) / blocker * nearest / receiver, kSoftness / distance);
         auto constants = constantsFor(pcss, 64, kSoftness, parameters);
         constants.map.w = (farthest - nearest) / nearest;
         const CpuTechnique<double> soft(pcss, map, constants, Storage::exact);
         const auto full = exactly(disc, map, expected);
         for (double v = 0.5 - 0.8 * expected; v < 0.5 + 0.8 * expected; v += 0.1 * expected) {
-            const auto at = receiverAt(0.5, v, 0.9);
+            const auto at = receiverAt(0.5, v, depth);
             EXPECT_NEAR(soft(at), full(at), 1e-4)  // the receiver's depth error
                 << "near " << nearest << " radius " << expected;
         }

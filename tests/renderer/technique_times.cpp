@@ -41,8 +41,8 @@ struct Row {
     std::array<std::vector<double>, renderer::kPasses> passesMs;
     std::vector<double> sumsMs;
     std::vector<double> wholeDepthMs;  // with every triangle in every map
-    std::vector<double> wholeMs;       // prefilter of everything, seen or not
-    double share = 1;                  // of the last map's tiles that are seen
+    std::vector<double> wholeMs;       // prefilter of whole maps
+    double share = 1;                  // of the last map's tiles that are filtered
     std::size_t bytes = 0;             // of the maps and what they are filtered in
 
     double median(renderer::Pass pass) const {
@@ -118,7 +118,7 @@ void measure(const renderer::GlInfo& info, const char* scene, double radiusTexel
         "\n**%s**, %d x %d px, N = %d, radius %.5f of the map = %.1f "
         "texels, %d rounds; %zu maps, looked up over %.2f screens; %zu of %zu "
         "triangles drawn into them\n\n"
-        "| technique | depth ms | of all triangles ms | prefilter ms | of it all ms | tiles seen | "
+        "| technique | depth ms | of all triangles ms | prefilter ms | of it all ms | tiles filtered | "
         "lookup ms "
         "| sum ms | "
         "of pcf_disc | of vsm | maps MB |\n"

@@ -59,11 +59,12 @@ layout(location = 3) uniform ivec2 grid;  // tilesEdge, texels that the kernel r
 ivec2 gap = ivec2(8, -1);
 
 void noteGap(ivec2 first, int k) {
+    if (gl_GlobalInvocationID.z > 0u || grid.x == 0) return;  // once for all layers
     if (hasGap(depthMap, first + ivec2(0, k), shadow)) gap = ivec2(min(gap.x, k), k);
 }
 
 void markGap(ivec2 first) {
-    if (gap.y < 0 || gl_GlobalInvocationID.z > 0u) return;
+    if (gap.y < 0) return;
     ivec2 low = max(first + ivec2(0, gap.x) - grid.y, ivec2(0)) / TILE;
     ivec2 high = min((first + ivec2(0, gap.y) + grid.y) / TILE, ivec2(grid.x - 1));
     for (int y = low.y; y <= high.y; ++y)

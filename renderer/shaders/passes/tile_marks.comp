@@ -28,7 +28,7 @@ void main() {
     float last = float(filteredEdge(shadow) - 1);
     ivec2 low = ivec2(clamp(place - reach, vec2(0.0), vec2(last))) / TILE;
     ivec2 high = ivec2(clamp(place + reach, vec2(0.0), vec2(last))) / TILE;
-    // No wider than a tile: costsMoreThanItSaves() of filter_tiles.h.
+    // No wider than a tile: unseenIsWorthIt() of filter_tiles.cpp.
     seen[low.y * tilesEdge + low.x] = 1u;
     seen[low.y * tilesEdge + high.x] = 1u;
     seen[high.y * tilesEdge + low.x] = 1u;

@@ -84,21 +84,29 @@ SHARED_FUNCTION real kernelReach(ShadowConstants shadow) {
 const real kMostBend = real(0.25);
 const real kBendOfRounding = real(1e-6);
 
-// Whether at this texel one surface ends before another, seen from the light, or bends by as much: only there a kernel
-// holds depths in front of a receiver and behind it that are not of the receiver's own plane. A slope is no gap,
-// however steep.
+// In which planes are linear on the map: depth itself, and under a lamp minus the inverse of the distance.
+SHARED_FUNCTION real planarDepth(real depth, ShadowConstants shadow) {
+    return shadow.map.w > real(0.0) ? real(-1.0) / (real(1.0) + shadow.map.w * depth) : depth;
+}
+
+// Whether at this texel one surface ends before another, seen from the light, or bends by as much along rows or
+// columns: only there a kernel holds depths in front of a receiver and behind it that are not of the receiver's own
+// plane. A slope is no gap, however steep.
 SHARED_FUNCTION bool hasGap(DEPTH_SAMPLER depthMap, int2 texel, ShadowConstants shadow) {
     real here = casterDepth(depthMap, texel, 0, shadow);
-    real across = casterDepth(depthMap, texel + int2(1, 0), 0, shadow) +
-                  casterDepth(depthMap, texel - int2(1, 0), 0, shadow) - real(2.0) * here;
-    real along = casterDepth(depthMap, texel + int2(0, 1), 0, shadow) +
-                 casterDepth(depthMap, texel - int2(0, 1), 0, shadow) - real(2.0) * here;
+    real planar = planarDepth(here, shadow);
+    real across = planarDepth(casterDepth(depthMap, texel + int2(1, 0), 0, shadow), shadow) +
+                  planarDepth(casterDepth(depthMap, texel - int2(1, 0), 0, shadow), shadow) - real(2.0) * planar;
+    real along = planarDepth(casterDepth(depthMap, texel + int2(0, 1), 0, shadow), shadow) +
+                 planarDepth(casterDepth(depthMap, texel - int2(0, 1), 0, shadow), shadow) - real(2.0) * planar;
     // A lamp's texels are wider the farther away.
-    real distance = shadow.scale.w != real(0.0) ? shadow.scale.x + here * shadow.scale.y : real(1.0);
+    bool lamp = shadow.map.w > real(0.0);
+    real distance = lamp ? shadow.scale.x + here * shadow.scale.y : real(1.0);
     real texelWidth = shadow.scale.z * shadow.map.y * distance / shadow.scale.y;
     real reach = max(kernelReach(shadow), real(1.0));
     real most = real(2.0) * kMostBend * texelWidth / (reach * reach) + kBendOfRounding;
-    return max(abs(across), abs(along)) > most;
+    real perDepth = lamp ? shadow.map.w * planar * planar : real(1.0);
+    return max(abs(across), abs(along)) > most * perDepth;
 }
 
 // Texels to either side of the middle one that the kernel touches.
