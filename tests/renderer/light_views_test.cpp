@@ -105,7 +105,7 @@ TEST(LampViews, DepthsAreFittedToTheCasters) {
             EXPECT_EQ(face.window.nearM, faces.front().window.nearM);
             EXPECT_EQ(face.window.depthRangeM, faces.front().window.depthRangeM);
             EXPECT_GE(face.window.nearM, static_cast<double>(lamp.nearM));
-            EXPECT_LT(face.window.depthRangeM, 12);
+            EXPECT_LT(face.window.depthRangeM, 13);
             for (int i = 0; i < 2000; ++i) {
                 const glm::dvec3 point(within(0), within(1), within(2));
                 const glm::dvec4 h = face.window.shadowFromWorld * glm::dvec4(point, 1);
