@@ -150,6 +150,12 @@ void MapFilter::ensureTextures(const Technique& technique, int edge, int layers,
         layers == layers_ || (!technique.termsParameter.empty() && layers < layers_);
     if (fits && fitsLayers && technique.format == format_ && technique.prefilter == prefilter_)
         return;
+    // A wide map of few layers after a narrow one of many, in every frame, needs one that is both.
+    if (keepLarger && textureEdge_ > 0 && technique.format == format_ &&
+        technique.prefilter == prefilter_) {
+        edge = std::max(edge, textureEdge_);
+        if (!technique.termsParameter.empty()) layers = std::max(layers, layers_);
+    }
     release();  // two sets at once may be more than there is room for
     const bool chain = technique.prefilter == Prefilter::mips;
     const int levels = chain ? 1 + static_cast<int>(std::log2(edge)) : 1;

@@ -71,7 +71,7 @@ TEST(MapTextures, BytesAreThoseOfTheTexturesThatThePrefilterNeeds) {
 }
 
 const renderer::Lamp kSpot{
-    .position = {0, 9, 0.1F}, .target = {0, 0, 0}, .coneDeg = 50, .farM = 20};
+    .position = {0, 9, 0.1F}, .target = {0, 0, 0}, .coneDeg = 8, .farM = 20};
 const renderer::Lamp kLowSpot{
     .position = {-5, 2, 1}, .target = {0, 0.5F, 0}, .coneDeg = 70, .farM = 30};
 
