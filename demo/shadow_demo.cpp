@@ -346,15 +346,19 @@ void show(const Options& options, const std::optional<demo::ViewerState>& kept,
                                                 shaders);
         opened->step();  // what the driver refuses comes out here
     };
+    std::optional<std::string> refused;
     try {
         open(state);
     } catch (const std::exception& error) {
         if (!kept) throw;
+        refused = error.what();
+    }
+    if (refused) {
+        open(stateOf(options, std::nullopt));  // where that fails, too, it was not the kept state
         std::fprintf(stderr,
                      "shadow_demo: note: the state of the last time cannot be shown: %s; "
                      "beginning anew\n",
-                     error.what());
-        open(stateOf(options, std::nullopt));
+                     refused->c_str());
     }
     demo::Viewer& viewer = *opened;
     tellNotes(viewer);

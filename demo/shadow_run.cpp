@@ -36,11 +36,16 @@ constexpr int kUnseenTexels = 256;
 static_assert(2 * kUnseenTexels * renderer::DetailProbe::kWidestTexels >=
               renderer::DetailProbe::kFineEdge);
 
-/// What a map asks for of which nothing is in view. Under a budget the texels are for the others,
-/// so it is the smallest size. A level is taken by what needs less than 80 % of it
-/// (lowerBelowPercent), and more than the next lower one has.
-double unseenNeed(const rc::Settings& sizing, bool hasBudget) {
-    return 0.78 * (hasBudget ? std::min(kUnseenTexels, sizing.minSize) : kUnseenTexels);
+/// What a map asks for of which nothing is in view: one reading, data of the same kind as of a map
+/// that is seen, so that falls in vain stay in mind where the two take turns. Without a budget its
+/// bin ends at 216 texels: enough for kUnseenTexels, which are taken at a cut and risen to; a fall
+/// goes to the next level above (lowerBelowPercent). Under a budget the texels are for the others,
+/// so it is the smallest size, of which it needs no more than 60 % with its bin.
+rc::DemandHistogram unseenDemand(const rc::Settings& sizing, bool hasBudget) {
+    rc::DemandHistogram demand;
+    demand.add(hasBudget ? 0.5F * static_cast<float>(std::min(kUnseenTexels, sizing.minSize))
+                         : 0.78F * static_cast<float>(kUnseenTexels));
+    return demand;
 }
 
 std::string numberText(double number) {
@@ -217,22 +222,17 @@ void ShadowRun::chooseTogether(View view) {
         if (trace_) trace_->begin(*lights_);
     }
     std::vector<rc::LightData> data(maps);
-    std::vector<bool> unseen(maps);
+    const rc::DemandHistogram unseen =
+        unseenDemand(controller_.settings(), settings_.budgetTexels.has_value());
     for (std::size_t map = 0; map < maps; ++map) {
         rc::Frame& about = data[map].frame;
         about = {.cameraCut = view != View::goesOn, .detailTexels = detail_.detailTexels(map)};
         const rc::DemandHistogram* recent = hear(map);
         if (!recent) continue;
-        unseen[map] = maps > 1 && recent->total() == 0 && recent->rejected == 0;
-        if (!unseen[map]) {
-            data[map].kind = rc::LightData::Kind::histogram;
-            data[map].histogram = recent;
-        } else {
-            // In every frame, whatever its size: the budget is shared by the need last heard of.
-            data[map].kind = rc::LightData::Kind::radius;
-            data[map].radiusUv = settings_.slope.c / unseenNeed(controller_.settings(),
-                                                                settings_.budgetTexels.has_value());
-        }
+        unseen_[map] = maps > 1 && recent->total() == 0 && recent->rejected == 0;
+        // In every frame, whatever the map's size: the budget is shared by the need last heard of.
+        data[map].kind = rc::LightData::Kind::histogram;
+        data[map].histogram = unseen_[map] ? &unseen : recent;
     }
     std::vector<rc::Decision> choices(maps);
     const rc::LightSummary summary =
@@ -258,10 +258,12 @@ void ShadowRun::chooseTogether(View view) {
                          .fadeFrom = choice.fadeFromSize};
         ChosenResolution& chosen = chosen_.emplace_back(chosenFrom(choice, data[map].frame));
         // Thin casters that the probe finds, and the map has lost, are in view.
-        if (!unseen[map] || chosen.detailTexels > 0) continue;
+        if (!unseen_[map] || chosen.detailTexels > 0) continue;
         chosen.need = 0;
         chosen.artifactRatio = chosen.shareAbove = 0;
-        if (choice.reason == rc::Reason::demandMet || choice.reason == rc::Reason::heldWithoutData)
+        if (choice.reason == rc::Reason::demandMet || choice.reason == rc::Reason::atMinimum ||
+            choice.reason == rc::Reason::waitingToLower ||
+            choice.reason == rc::Reason::heldWithoutData)
             chosen.reason = "no penumbra of it in view";
     }
     frameSettings_.maps = std::move(settings);
@@ -300,6 +302,7 @@ void ShadowRun::askTheRest() {
 void ShadowRun::forgetDemand() {
     demand_.forget();
     for (rc::RecentDemand& recent : recent_) recent.clear();
+    unseen_.assign(recent_.size(), false);
 }
 
 void ShadowRun::fitRecent() {
@@ -310,6 +313,7 @@ void ShadowRun::fitRecent() {
     demand_.forget();  // other pixels, or other maps
     askedPx_ = size;
     recent_.assign(maps, rc::RecentDemand(edge * edge));
+    unseen_.assign(maps, false);
 }
 
 int ShadowRun::settle() {

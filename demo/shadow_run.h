@@ -148,7 +148,8 @@ class ShadowRun {
     renderer::DemandPass demand_;
     renderer::DetailProbe detail_;
     std::vector<resolution_controller::RecentDemand> recent_;  // one for each map
-    glm::ivec2 askedPx_{0};                                    // the frame that they are of
+    std::vector<bool> unseen_;      // one for each map: nothing of it is in view, as last heard
+    glm::ivec2 askedPx_{0};         // the frame that they are of
     std::string detailOf_;          // source of the scene that the probe looked at
     std::size_t hurriedTiles_ = 0;  // still to be drawn of a new view, one in every frame
     int framesToDetail_ = 0;

@@ -178,6 +178,12 @@ void goBack(Viewer& viewer, const ViewerState& before) {
     }
 }
 
+/// By a clock that never goes back.
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
 /// Which map is on which side of the split view's line.
 void labelSides(const Viewer& viewer) {
     const ViewerState& state = viewer.state();
@@ -235,7 +241,6 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last).count();
         last = now;
-        message.pass(seconds);
         if (state.path != Path::still)
             state.pathPlace = std::fmod(state.pathPlace + seconds / kSecondsAround, 1.0);
 
@@ -260,7 +265,7 @@ void showViewer(renderer::Window& window, Viewer& viewer, const ViewerWindowOpti
         }
         if (request.screenshot) message.say(savePicture(viewer, options.pictureFolder));
         window.copyFrom(viewer.framebuffer(), viewer.frame().widthPx(), viewer.frame().heightPx());
-        drawMessage(message.text());
+        drawMessage(message.shownAt(secondsNow()));
         Interface::end();
         if (options.windowPicture && shown + 1 == options.frames)
             writePng(*options.windowPicture,

@@ -152,7 +152,7 @@ struct PlyElement {
 };
 
 /// Whether a row of an ASCII file has the values of its element and no more: Assimp takes what lies
-/// elsewhere for what is missing. It ends the program at a face without corners.
+/// elsewhere for what is missing.
 bool isRowOf(const PlyElement& element, const std::string& row) {
     const char* at = row.c_str();
     const auto skipWord = [&] {
@@ -275,6 +275,17 @@ std::string whyNot(const Assimp::Importer& importer) {
     return oneLine(importer.GetErrorString());
 }
 
+/// Assimp ends the program where it is to make triangles of one.
+void rejectFacesWithoutCorners(const std::filesystem::path& file, const aiScene& model) {
+    for (unsigned i = 0; i < model.mNumMeshes; ++i) {
+        const aiMesh& mesh = *model.mMeshes[i];
+        for (unsigned face = 0; face < mesh.mNumFaces; ++face)
+            if (mesh.mFaces[face].mNumIndices == 0)
+                reject(file, "mesh " + std::to_string(i) + ", face " + std::to_string(face) +
+                                 ": has no corners");
+    }
+}
+
 /// Fit for the name of a picture's file.
 std::string plainName(const std::filesystem::path& file) {
     std::string name = file.stem().string();
@@ -297,9 +308,11 @@ std::vector<SceneObject> objectsOf(const std::filesystem::path& file,
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* model = importer.ReadFile(
-        file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_SortByPType |
-                           aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
+    const aiScene* model = importer.ReadFile(file.string(), aiProcess_ValidateDataStructure);
+    if (model == nullptr) reject(file, whyNot(importer));
+    rejectFacesWithoutCorners(file, *model);
+    model = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                         aiProcess_SortByPType | aiProcess_PreTransformVertices);
     if (model == nullptr) reject(file, whyNot(importer));
 
     std::vector<SceneObject> objects;

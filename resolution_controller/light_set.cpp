@@ -141,7 +141,9 @@ std::string LightSet::reconfigure(std::size_t light, const Settings& settings) {
     Light& l = lights_[light];
     const Settings before = l.controller.settings();
     std::string problem = l.controller.reconfigure(settings);
-    if (rules_ >= Rules::fallsRemembered && l.controller.settings() != before) l.need.falls = {};
+    if (rules_ >= Rules::fallsRemembered && !chooseAlike(l.controller.settings(), before)) {
+        l.need.falls = {};
+    }
     return problem;
 }
 

@@ -133,6 +133,9 @@ std::string validate(const ControllerState& s) {
             return sentence("state.last.size", size, "must be a level (levels.h: 16 to 32768)");
         }
     }
+    if (s.fellTo != 0 && levelAtLeast(s.fellTo, LevelRatio::sqrtTwo) != s.fellTo) {
+        return sentence("state.fellTo", s.fellTo, "must be 0 or a level (levels.h: 16 to 32768)");
+    }
     if (d.need < 0 || d.need > kLargestNeed) {
         return sentence("state.last.need", d.need, "must be in 0 to 65536");
     }
@@ -153,6 +156,14 @@ std::string validate(const ControllerState& s) {
         if (count < 0) return sentence("state", count, "counts of frames must be at least 0");
     }
     return validate(s.falls);
+}
+
+bool chooseAlike(const Settings& a, const Settings& b) noexcept {
+    Settings other = b;
+    other.crossFadeFrames = a.crossFadeFrames;
+    other.startSize = a.startSize;
+    other.budgetPerTexel = a.budgetPerTexel;
+    return a == other;
 }
 
 DemandRule demandRule(const Settings& settings) noexcept {
@@ -244,9 +255,9 @@ std::string ResolutionController::reconfigure(const Settings& settings) {
     std::string problem = validate(settings);
     state_.settingsRefused = !problem.empty();
     state_.slopeRefused = !problem.empty() && !validate(settings.slope).empty();
-    if (problem.empty() && settings != settings_) {
+    if (problem.empty()) {
+        if (!chooseAlike(settings, settings_)) state_.falls = {};
         settings_ = settings;
-        state_.falls = {};  // what was measured then was measured otherwise
     }
     return problem;
 }
@@ -316,7 +327,8 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
     }
     if (remembers) s.falls.pass(need, s.last.size, settings_.lowerAfterFrames);
     if (target >= current) {
-        if (target > current) s.falls.rose(settings_.lowerAfterFrames);
+        // No further up than it fell, it follows a limit that is gone.
+        if (target > s.fellTo) s.falls.rose(settings_.lowerAfterFrames);
         return startOver(target);
     }
 
@@ -337,7 +349,10 @@ std::int32_t ResolutionController::choose(std::int32_t need, const Limits& limit
         if (!hasRoomFor(next, s.largestNeedBelow)) break;
         lower = next;
     }
-    if (remembers) s.falls.fell(settings_.lowerAfterFrames, 1);
+    if (remembers) {
+        s.falls.fell(settings_.lowerAfterFrames, 1);
+        s.fellTo = lower;
+    }
     return startOver(lower);
 }
 

@@ -68,7 +68,8 @@ struct Settings {
     std::int32_t textureSize = 0;
 
     /// After a change of size, frames (0 to 10000) in which the old map still has a share in the
-    /// picture; 0: it is replaced at once. Both maps are drawn meanwhile.
+    /// picture; 0: it is replaced at once. Both maps are drawn meanwhile. A size that comes before
+    /// the one it follows has half of the picture takes its weight over, and so gets fewer frames.
     std::int32_t crossFadeFrames = 0;
 
     float pixelBound = 1;       ///< k, texels per pixel that can still be seen, > 0
@@ -84,6 +85,10 @@ struct Settings {
 
 /// Empty when usable; else a sentence that names field, value and rule.
 std::string validate(const Settings& settings);
+
+/// Whether both choose the same size by the same data: all but crossFadeFrames, startSize and
+/// budgetPerTexel is the same.
+bool chooseAlike(const Settings& a, const Settings& b) noexcept;
 
 /// What to call demand() with for the points of a light with these settings.
 DemandRule demandRule(const Settings& settings) noexcept;
@@ -185,8 +190,10 @@ struct Decision {
 enum class Rules : std::uint16_t {
     nothingRemembered = 1,  ///< what falls, falls again as often as it is taken back
     needsRemembered = 2,    ///< a need in a budget does not, for ever
-    fallsRemembered = 3     ///< nor does a size, for a while (fall_memory.h); a fade keeps the map
-                            ///< with the larger share
+    /// Nor does a size, for a while (fall_memory.h), and a light whose need pauses is reserved no
+    /// more than it uses. A fade keeps the map with the larger share, lowerings wait for its end,
+    /// and other crossFadeFrames go on from its weight.
+    fallsRemembered = 3
 };
 inline constexpr Rules kPresentRules = Rules::fallsRemembered;
 
@@ -203,6 +210,7 @@ struct ControllerState {
     std::int32_t framesSinceCut = kNever;
     std::int32_t fadeFrame = kNever;  // 1 in the frame of the change that is being faded
     FallMemory falls = {};            // of the size
+    std::int32_t fellTo = 0;          // at the last fall; 0 none yet
     bool hadData = false;
     bool cutPending = false;  // no data of the new view yet
     bool settingsRefused = false;
@@ -234,7 +242,8 @@ class ResolutionController {
 
     /// New settings from the next call on; the size moves within new limits at once. Returns
     /// validate()'s sentence; when it is not empty, the old settings stay and the size is held
-    /// until usable ones come. Not a call for every frame: a sentence allocates.
+    /// until usable ones come. Falls in vain are forgotten unless the settings chooseAlike().
+    /// Not a call for every frame: a sentence allocates.
     std::string reconfigure(const Settings& settings);
 
     const Settings& settings() const noexcept { return settings_; }

@@ -45,8 +45,11 @@ extern "C" {
 #define STAIRWELL_NOEXCEPT
 #endif
 
-/* Changes when a struct or a function changes its meaning; a program that finds another number in
- * the library than here must not go on. */
+/* Changes when a program that keeps to what its header says could no longer use the library: when a
+ * struct, a function or a number has another meaning. It stays when there are more functions, more
+ * reasons at the end, and when the library begins to refuse what was never allowed, as in
+ * `reserved` fields anything but 0. A program that finds another number in the library than here
+ * must not go on. */
 #define STAIRWELL_ABI 1
 uint32_t stairwell_abi(void) STAIRWELL_NOEXCEPT;
 
@@ -224,7 +227,9 @@ typedef struct stairwell_decision {
     int32_t changed;
     int32_t reason;
     int32_t need;
-    int32_t fade_from_size; /* another change in a fade leaves it while fade_weight is below 1/2 */
+    /* Another change in a fade leaves it while fade_weight is below 1/2; one back to it turns the
+     * fade round, from the size that was faded to. */
+    int32_t fade_from_size;
     double fade_weight;
     double artifact_ratio;
     double share_above;

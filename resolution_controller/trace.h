@@ -25,8 +25,10 @@
 // and older ones are replayed by the rules of their time: in 1.0 a size that was held without data
 // kept its least radius when the slope became another, and no least radius was faded; before 1.2 no
 // fall of a light's need under a budget was remembered, and in 1.2 it was for ever; before 1.3 no
-// fall of a size was, and a change of size within a fade began another. A set that decides by older
-// rules (LightSet::decideBy) writes traces of their version.
+// fall of a size was, no need paused, so that no light's share was capped by that, a change of size
+// within a fade began another, lowerings did not wait for a fade's end, and other crossFadeFrames
+// gave a fade that ran another weight at once. A set that decides by older rules
+// (LightSet::decideBy) writes traces of their version.
 #pragma once
 
 #include <cstddef>

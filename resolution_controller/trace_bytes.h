@@ -133,7 +133,10 @@ void fields(Stream& stream, S& s, Rules rules) noexcept {
     numbers(stream, s.radiusUv, s.largestRadiusUv, s.framesBelow, s.largestNeedBelow,
             s.framesSinceCut, s.fadeFrame, s.hadData, s.cutPending, s.settingsRefused,
             s.slopeRefused);
-    if (rules >= Rules::fallsRemembered) fields(stream, s.falls);
+    if (rules >= Rules::fallsRemembered) {
+        numbers(stream, s.fellTo);
+        fields(stream, s.falls);
+    }
 }
 
 template <typename Stream, Is<HeldNeed> S>

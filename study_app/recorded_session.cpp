@@ -122,8 +122,9 @@ bool hasBegun(const fs::path& table) {
     if (!fs::exists(table)) return false;
     if (fs::exists(records::sidecarPath(table))) return true;
     const std::string text = records::readWholeFile(table);
-    const std::size_t rows = text.find('\n');
-    return rows != text.npos && rows + 1 < text.size();
+    const std::string header = records::trialTableHeader() + "\n";
+    if (header.starts_with(text)) return false;
+    return !text.starts_with(header) || text.find('\n', header.size()) != text.npos;
 }
 
 ReplayedSession replayTable(const fs::path& file) {

@@ -74,8 +74,9 @@ class RecordedSession {
 };
 
 /// Whether a session has begun in this table: false where there is none, and where a program that
-/// was killed as it began left the table's first line, or part of it, and no sidecar yet. Nothing
-/// was recorded then, and a RecordedSession begins there as in an empty folder. Throws
+/// was killed as it began left the table's first line, or part of it, and no sidecar yet, with no
+/// complete row after it. Nothing was recorded then, and a RecordedSession begins there as in an
+/// empty folder. Any other file counts as begun: it is for who reads it to refuse. Throws
 /// std::runtime_error where the table cannot be read.
 bool hasBegun(const std::filesystem::path& table);
 

@@ -48,7 +48,8 @@ bool isRerunOf(const Design& first, Design again) {
 std::vector<Run> runsOf(const SessionRequest& request) {
     const SessionRequest first = firstOf(request);
     std::vector<Run> runs{{{}, replayTable(tableOf(first)).session}};
-    for (int i = 1; hasBegun(tableOf(rerunOf(first, i))); ++i) {
+    for (int i = 1; std::filesystem::exists(tableOf(rerunOf(first, i))); ++i) {
+        if (!hasBegun(tableOf(rerunOf(first, i)))) continue;
         Session session = replayTable(tableOf(rerunOf(first, i))).session;
         if (!isRerunOf(runs[0].session.design(), session.design())) continue;
         runs.push_back({rerunName(i), std::move(session)});

@@ -423,7 +423,8 @@ void stepFinished(ShadowRun& run, int frames) {
 }
 
 // Seen in one view and not in the next: the budget goes by what is in view now, also where it has
-// cut the map's size before. A level of sqrt 2 may be held from another view.
+// cut the map's size before. Nothing is held from another view: nobody is a level of sqrt 2 worse
+// off than where only this one was ever seen.
 TEST(SeveralMaps, OneThatWasInViewLeavesItsShareOfABudgetToTheOthers) {
     const renderer::Scene scene = renderer::makeScene("yard:lamps=3:cascades=3");
     renderer::OrbitCamera other = scene.camera;

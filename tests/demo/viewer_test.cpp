@@ -353,21 +353,20 @@ TEST(ViewerState, ChangesOneOptionOfAScene) {
     EXPECT_EQ(withSceneOption(file + ":cascades=5", "cascades", 3, 1), file + ":cascades=3");
 }
 
-TEST(ViewerMessage, StaysAsLongAsItTakesToReadItAfterItWasSaidLast) {
+TEST(ViewerMessage, StaysAsLongAsItTakesToReadItOnceItIsDrawn) {
     demo::ViewerMessage message;
-    EXPECT_EQ(message.text(), "");
+    EXPECT_EQ(message.shownAt(0), "");
     message.say("saved as picture.png");
-    message.pass(3);
+    EXPECT_EQ(message.shownAt(10), "saved as picture.png") << "it took 10 s to save it";
+    EXPECT_EQ(message.shownAt(13), "saved as picture.png");
     message.say("saved as picture.png");
-    message.pass(3);
-    EXPECT_EQ(message.text(), "saved as picture.png");
-    message.pass(3);
-    EXPECT_EQ(message.text(), "");
+    EXPECT_EQ(message.shownAt(23), "saved as picture.png");
+    EXPECT_EQ(message.shownAt(27), "saved as picture.png");
+    EXPECT_EQ(message.shownAt(29), "");
     message.say(std::string(400, 'x'));
-    message.pass(20);
-    EXPECT_NE(message.text(), "") << "a long one longer";
-    message.pass(20);
-    EXPECT_EQ(message.text(), "");
+    EXPECT_NE(message.shownAt(40), "");
+    EXPECT_NE(message.shownAt(60), "") << "a long one longer";
+    EXPECT_EQ(message.shownAt(80), "");
 }
 
 TEST(ViewerPanel, StaysInsideTheWindow) {

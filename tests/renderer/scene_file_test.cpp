@@ -153,6 +153,12 @@ TEST_F(SceneFile, NamesFileAndFaultInOneLine) {
                  "property list uint int vertex_indices\nend_header\n" +
                      std::string(12, '\0') + "\377\377\377\377" + std::string(12, '\0')),
          "announces more than fits into memory"},
+        {written("binary none.ply",
+                 "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
+                 "property float y\nproperty float z\nelement face 2\n"
+                 "property list uchar uchar vertex_indices\nend_header\n" +
+                     std::string(12, '\0') + "\3" + std::string(4, '\0')),
+         "mesh 0, face 1: has no corners"},
         {written("chunk.glb", std::string("glTF\2\0\0\0\377\0\0\0\377\377\377\377JSON", 20)),
          "its first chunk is to have 4294967295 bytes, but only 0 follow"},
         {written("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), ""},

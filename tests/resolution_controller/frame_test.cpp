@@ -361,6 +361,8 @@ TEST(ControllerState, RefusesWhatNoControllerWasEverIn) {
     refused([](auto& s) { s.last.fadeWeight = 1.5; });
     refused([](auto& s) { s.radiusUv = kInf; });
     refused([](auto& s) { s.framesBelow = -1; });
+    refused([](auto& s) { s.fellTo = -1; });
+    refused([](auto& s) { s.fellTo = 1000; });
     refused([](auto& s) { s.falls.trialFrames = -1; });
     refused([](auto& s) { s.falls.takenBack = 21; });
     refused([](auto& s) { s.falls.takenBack = -1; });

@@ -366,22 +366,62 @@ TEST(ResolutionController, ForgetsFallsInVainAtACutWithOtherSettingsAndWithDataO
         return controller;
     };
     rc::ResolutionController waiting = inPause(), cut = inPause(), set = inPause(),
-                             other = inPause(), less = inPause(), older = inPause();
+                             alike = inPause(), other = inPause(), less = inPause(),
+                             older = inPause();
     EXPECT_EQ(cut.update(radiusFor(500), {.cameraCut = true}).size, 512);
-    EXPECT_EQ(set.reconfigure({.startSize = 64}), "");
+    EXPECT_EQ(set.reconfigure({.percentile = 0.97}), "");
+    EXPECT_EQ(alike.reconfigure({.startSize = 64, .crossFadeFrames = 8, .budgetPerTexel = 4}), "");
     older.decideBy(rc::Rules::needsRemembered);
     for (int frame = 0; frame < 60; ++frame) {
         waiting.update(radiusFor(500));
         set.update(radiusFor(500));
+        alike.update(radiusFor(500));
         other.update(histogramOf({{500.0f, 9}}));
         older.update(radiusFor(500));
     }
     for (int frame = 0; frame < 2 * 45; ++frame) less.update(radiusFor(350));
     EXPECT_EQ(waiting.size(), 1024);
     EXPECT_EQ(set.size(), 728);
+    EXPECT_EQ(alike.size(), 1024) << "they choose alike";
     EXPECT_EQ(other.size(), 728);
     EXPECT_EQ(older.size(), 728);
     EXPECT_EQ(less.size(), 512) << "another scene";
+}
+
+// A limit that is lifted raises the size, too; that takes a fall back only above where it went.
+TEST(ResolutionController, ALimitThatIsLiftedTakesNoFallBack) {
+    for (const double need : {500.0, 900.0}) {
+        rc::ResolutionController controller({});
+        controller.update(radiusFor(1000));
+        while (controller.size() == 1024) controller.update(radiusFor(500));
+        EXPECT_EQ(controller.size(), 728);
+        EXPECT_EQ(controller.update(radiusFor(need), {.budgetSize = 256}).size, 256);
+        EXPECT_EQ(controller.update(radiusFor(need)).size, need > 728 ? 1024 : 512);
+        EXPECT_EQ(controller.state().falls.pauses(), need > 728) << need;
+    }
+}
+
+// What an engine says of a map of which nothing is in view: the large map shows no penumbra, on the
+// smaller one it is wide enough to be seen.
+TEST(ResolutionController, RestsWhereAMapIsInViewOnlyWhileItIsSmall) {
+    const rc::DemandHistogram unseen = histogramOf({{50.0f, 1}});
+    const rc::DemandHistogram seen = histogramOf({{1000.0f, 9}});
+    for (const int largest : {184, 368, 1024}) {
+        for (const std::size_t latency : {0U, 3U, 20U}) {
+            rc::ResolutionController controller({.startSize = 2048});
+            std::vector<std::int32_t> sizes(latency, 2048);
+            int changes = 0, late = 0;
+            for (int frame = 0; frame < 64 * 45; ++frame) {
+                sizes.push_back(controller.size());
+                const bool isSeen = sizes[sizes.size() - 1 - latency] < largest;
+                const rc::Decision d = controller.update(isSeen ? seen : unseen);
+                changes += d.changed;
+                late += frame > 300 && d.changed;
+            }
+            EXPECT_GT(changes, 1) << "or the test could not fail";
+            EXPECT_EQ(late, 0) << largest << ' ' << latency;
+        }
+    }
 }
 
 // As a damaged trace may hold it, and over and over.

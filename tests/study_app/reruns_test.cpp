@@ -109,7 +109,12 @@ TEST(Reruns, BeginOneAgainThatWasKilledAsItBegan) {
             records::trialTablePath(first.dataFolder, first.participant, "rerun1"));
     }
     EXPECT_EQ(runsOf(first).size(), 1u);
-    EXPECT_EQ(rerunRequest(first, "stair-a3-lit1-noise0", 5).session, "rerun1");
+    SessionRequest again = rerunRequest(first, "stair-a3-lit1-noise0", 5);
+    EXPECT_EQ(again.session, "rerun1");
+    again.session = "rerun2";
+    run(again, {});
+    EXPECT_EQ(runsOf(first).size(), 2u) << "the one after it counts";
+    EXPECT_EQ(runsOf(first).back().rerun, "rerun2");
 }
 
 TEST(Reruns, AreNotTakenForThoseOfAnotherDesign) {

@@ -450,13 +450,22 @@ TEST(SetupForm, TakesASessionThatWasKilledAsItBeganForNone) {
     form.participant = "01";
     const auto table = records::trialTablePath(form.dataFolder, "01", std::nullopt);
     { const records::TrialJournal begun(table); }
-    const auto header = std::filesystem::file_size(table);
-    for (const std::uintmax_t written : {header, header / 2, std::uintmax_t{0}}) {
-        std::filesystem::resize_file(table, written);
+    const std::string header = records::trialTableHeader() + "\n";
+    ASSERT_EQ(std::filesystem::file_size(table), header.size());
+    const auto write = [&](const std::string& text) { std::ofstream(table) << text; };
+    for (const std::string& written :
+         {header + "1\tstair", header, header.substr(0, header.size() / 2), std::string()}) {
+        write(written);
         const ExistingSession existing = findExisting(form);
         EXPECT_EQ(existing.state, ExistingSession::State::none) << existing.problem;
         EXPECT_THAT(describeParticipants(form.dataFolder), testing::ElementsAre("01: not begun"));
     }
+    for (const std::string foreign :
+         {"trial\tcolour", "trial\tcolour\n", "trial\tcolour\n1\tblue"}) {
+        write(foreign);
+        EXPECT_EQ(findExisting(form).state, ExistingSession::State::unusable) << foreign;
+    }
+    write(header + "1\tstair");
     {
         SessionRunner runner(requestIn(folder));
         Sitting person{runner};
